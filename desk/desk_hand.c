@@ -216,48 +216,21 @@ void desk_hand_drop(struct desk *d)
 
 /* ---- from GTK ---- */
 
-/* Of a surface's place the canvas's. */
-static bool place_of(struct desk *d, double x, double y, struct input_event *e)
+static bool report_take(struct desk *d, GdkEvent *event, const GdkTimeCoord *past,
+                        struct input_event *e)
 {
-    GtkNative *native = gtk_widget_get_native(d->canvas);
-    double left, top;
-    graphene_point_t to;
-    if (!native)
+    struct desk_report r;
+    if (!desk_pen_report(d->pen, d->canvas, event, past, &r))
         return false;
-    gtk_native_get_surface_transform(native, &left, &top);
-    const graphene_point_t from = {(float)(x - left), (float)(y - top)};
-    if (!gtk_widget_compute_point(GTK_WIDGET(native), d->canvas, &from, &to))
-        return false;
-    e->x_px = (double)to.x;
-    e->y_px = (double)to.y;
+    e->time_s = 1e-3 * r.time_ms;
+    e->x_px = r.x;
+    e->y_px = r.y;
+    e->pen = r.pen;
+    e->eraser = r.eraser;
+    e->pressure = r.pressure;
+    e->tilt_x = r.tilt[0];
+    e->tilt_y = r.tilt[1];
     return true;
-}
-
-/* Its place on the surface, x, y; axes NULL: the event's own. */
-static void pressure_take(struct desk *d, GdkEvent *event, const double *axes, guint32 time_ms,
-                          double x, double y, struct input_event *e)
-{
-    const double scale = gtk_widget_get_scale_factor(d->canvas);
-    double tilt[2] = {0, 0};
-    GdkDeviceTool *tool = gdk_event_get_device_tool(event);
-    if (tool && (gdk_device_tool_get_axes(tool) & GDK_AXIS_FLAG_PRESSURE)) {
-        e->pen = true;
-        e->eraser = gdk_device_tool_get_tool_type(tool) == GDK_DEVICE_TOOL_TYPE_ERASER;
-        if (axes) {
-            e->pressure = axes[GDK_AXIS_PRESSURE];
-            tilt[0] = axes[GDK_AXIS_XTILT];
-            tilt[1] = axes[GDK_AXIS_YTILT];
-        } else {
-            gdk_event_get_axis(event, GDK_AXIS_PRESSURE, &e->pressure);
-            gdk_event_get_axis(event, GDK_AXIS_XTILT, &tilt[0]);
-            gdk_event_get_axis(event, GDK_AXIS_YTILT, &tilt[1]);
-        }
-    } else
-        e->pen = desk_pen_at(d->pen, time_ms, &e->pressure, tilt, &e->eraser) &&
-                 !desk_pen_other(d->pen, time_ms, scale * x, scale * y,
-                                 e->kind == INPUT_POINTER_MOVE);
-    e->tilt_x = tilt[0];
-    e->tilt_y = tilt[1];
 }
 
 /* A mouse that is bumped while a pen paints. */
@@ -269,21 +242,10 @@ static bool beside_pen(const struct desk *d, const struct input_event *e)
 static void moves_take(struct desk *d, GdkEvent *event)
 {
     guint count = 0;
-    double x, y;
     GdkTimeCoord *history = gdk_event_get_history(event, &count);
     for (guint i = 0; i <= count; i++) {
-        const GdkTimeCoord *past = i < count ? &history[i] : NULL;
-        const guint32 time_ms = past ? past->time : gdk_event_get_time(event);
-        struct input_event e = {.kind = INPUT_POINTER_MOVE, .time_s = 1e-3 * time_ms};
-        if (past) {
-            x = past->axes[GDK_AXIS_X];
-            y = past->axes[GDK_AXIS_Y];
-        } else
-            gdk_event_get_position(event, &x, &y);
-        if (!place_of(d, x, y, &e))
-            continue;
-        pressure_take(d, event, past ? past->axes : NULL, time_ms, x, y, &e);
-        if (!beside_pen(d, &e))
+        struct input_event e = {.kind = INPUT_POINTER_MOVE};
+        if (report_take(d, event, i < count ? &history[i] : NULL, &e) && !beside_pen(d, &e))
             desk_hand_event(d, &e);
     }
     g_free(history);
@@ -291,10 +253,8 @@ static void moves_take(struct desk *d, GdkEvent *event)
 
 static void button_take(struct desk *d, GdkEvent *event, enum input_kind kind)
 {
-    double x, y;
     const guint button = gdk_button_event_get_button(event);
     struct input_event e = {.kind = kind,
-                            .time_s = 1e-3 * gdk_event_get_time(event),
                             .button = button == GDK_BUTTON_PRIMARY  ? INPUT_BUTTON_LEFT
                                       : button == GDK_BUTTON_MIDDLE ? INPUT_BUTTON_MIDDLE
                                                                     : INPUT_BUTTON_RIGHT};
@@ -302,11 +262,7 @@ static void button_take(struct desk *d, GdkEvent *event, enum input_kind kind)
     e.modifiers = (state & GDK_SHIFT_MASK ? INPUT_SHIFT : 0u) |
                   (state & GDK_CONTROL_MASK ? INPUT_CONTROL : 0u) |
                   (state & GDK_ALT_MASK ? INPUT_ALT : 0u);
-    gdk_event_get_position(event, &x, &y);
-    if (!place_of(d, x, y, &e))
-        return;
-    pressure_take(d, event, NULL, gdk_event_get_time(event), x, y, &e);
-    if (beside_pen(d, &e))
+    if (!report_take(d, event, NULL, &e) || beside_pen(d, &e))
         return;
     if (kind == INPUT_POINTER_DOWN && !d->down)
         d->by_pen = e.pen;

@@ -145,36 +145,51 @@ void desk_pen_destroy(struct desk_pen *pen)
     g_free(pen);
 }
 
-bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2],
-                 bool *eraser)
+static const struct report *newest(const struct desk_pen *pen, guint i)
+{
+    return &pen->reports[(pen->reports_count - 1 - i) % REPORTS];
+}
+
+static bool is_near(const struct report *report, double x_px, double y_px)
+{
+    return fabs(report->x_px - x_px) <= NEAR_PX && fabs(report->y_px - y_px) <= NEAR_PX;
+}
+
+/* A pen's report at r's time, as near as there is one; of several at that time the one from this
+ * place of the surface, in pixels of the screen. False: no pen has spoken. */
+static bool report_at(const struct desk_pen *pen, double x_px, double y_px,
+                      struct desk_report *r)
 {
     const guint kept = MIN(pen->reports_count, REPORTS);
     const struct report *nearest = NULL;
-    for (guint i = 0; i < kept; i++) { /* the newest first */
-        const struct report *r = &pen->reports[(pen->reports_count - 1 - i) % REPORTS];
-        if (!r->pen || (gint32)(time_ms - r->time_ms) < 0)
+    for (guint i = 0; i < kept; i++) {
+        const struct report *at = newest(pen, i);
+        if (!at->pen || (gint32)(r->time_ms - at->time_ms) < 0)
             continue;
-        nearest = r;
-        break;
+        if (nearest && at->time_ms != r->time_ms)
+            break;
+        if (!nearest || is_near(at, x_px, y_px))
+            nearest = at;
     }
-    if (!nearest || time_ms - nearest->time_ms > FORGOTTEN_MS)
+    if (!nearest || r->time_ms - nearest->time_ms > FORGOTTEN_MS)
         return false;
-    *pressure = nearest->axis[0];
-    tilt[0] = nearest->axis[1];
-    tilt[1] = nearest->axis[2];
-    *eraser = nearest->eraser;
+    r->pressure = nearest->axis[0];
+    r->tilt[0] = nearest->axis[1];
+    r->tilt[1] = nearest->axis[2];
+    r->eraser = nearest->eraser;
     return true;
 }
 
-bool desk_pen_other(const struct desk_pen *pen, guint32 time_ms, double x_px, double y_px,
-                    bool moved)
+/* Whether what came at that time from that place, a move or else a button's, was told by a
+ * device that is no pen. */
+static bool is_other(const struct desk_pen *pen, guint32 time_ms, double x_px, double y_px,
+                     bool moved)
 {
     const guint kept = MIN(pen->reports_count, REPORTS);
     bool other = false;
     for (guint i = 0; i < kept; i++) {
-        const struct report *r = &pen->reports[(pen->reports_count - 1 - i) % REPORTS];
-        if (r->time_ms != time_ms || r->moved != moved || fabs(r->x_px - x_px) > NEAR_PX ||
-            fabs(r->y_px - y_px) > NEAR_PX)
+        const struct report *r = newest(pen, i);
+        if (r->time_ms != time_ms || r->moved != moved || !is_near(r, x_px, y_px))
             continue;
         if (r->pen)
             return false;
@@ -198,19 +213,18 @@ void desk_pen_destroy(struct desk_pen *pen)
     (void)pen;
 }
 
-bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2],
-                 bool *eraser)
+static bool report_at(const struct desk_pen *pen, double x_px, double y_px,
+                      struct desk_report *r)
 {
     (void)pen;
-    (void)eraser;
-    (void)time_ms;
-    (void)pressure;
-    (void)tilt;
+    (void)x_px;
+    (void)y_px;
+    (void)r;
     return false;
 }
 
-bool desk_pen_other(const struct desk_pen *pen, guint32 time_ms, double x_px, double y_px,
-                    bool moved)
+static bool is_other(const struct desk_pen *pen, guint32 time_ms, double x_px, double y_px,
+                     bool moved)
 {
     (void)pen;
     (void)time_ms;
@@ -221,3 +235,65 @@ bool desk_pen_other(const struct desk_pen *pen, guint32 time_ms, double x_px, do
 }
 
 #endif
+
+/* ---- what GTK tells ---- */
+
+/* Of a surface's place the widget's. */
+static bool place_of(GtkWidget *widget, double x, double y, struct desk_report *r)
+{
+    GtkNative *native = gtk_widget_get_native(widget);
+    double left, top;
+    graphene_point_t to;
+    if (!native)
+        return false;
+    gtk_native_get_surface_transform(native, &left, &top);
+    const graphene_point_t from = {(float)(x - left), (float)(y - top)};
+    if (!gtk_widget_compute_point(GTK_WIDGET(native), widget, &from, &to))
+        return false;
+    r->x = (double)to.x;
+    r->y = (double)to.y;
+    return true;
+}
+
+/* A pen whose tool GTK knows. */
+static void tool_report(GdkDeviceTool *tool, GdkEvent *event, const GdkTimeCoord *past,
+                        struct desk_report *r)
+{
+    static const GdkAxisUse uses[] = {GDK_AXIS_PRESSURE, GDK_AXIS_XTILT, GDK_AXIS_YTILT};
+    double *const axes[] = {&r->pressure, &r->tilt[0], &r->tilt[1]};
+    r->pen = true;
+    r->eraser = gdk_device_tool_get_tool_type(tool) == GDK_DEVICE_TOOL_TYPE_ERASER;
+    for (size_t i = 0; i < G_N_ELEMENTS(uses); i++)
+        if (past)
+            *axes[i] = past->axes[uses[i]];
+        else
+            gdk_event_get_axis(event, uses[i], axes[i]);
+}
+
+bool desk_pen_report(struct desk_pen *pen, GtkWidget *widget, GdkEvent *event,
+                     const GdkTimeCoord *past, struct desk_report *report)
+{
+    const double scale = gtk_widget_get_scale_factor(widget);
+    const bool moved = gdk_event_get_event_type(event) == GDK_MOTION_NOTIFY;
+    GdkDeviceTool *tool = gdk_event_get_device_tool(event);
+    double x = 0, y = 0;
+    *report = (struct desk_report){.time_ms = past ? past->time : gdk_event_get_time(event)};
+    if (past) {
+        x = past->axes[GDK_AXIS_X];
+        y = past->axes[GDK_AXIS_Y];
+    } else
+        gdk_event_get_position(event, &x, &y);
+    if (!place_of(widget, x, y, report))
+        return false;
+    if (tool && (gdk_device_tool_get_axes(tool) & GDK_AXIS_FLAG_PRESSURE)) {
+        tool_report(tool, event, past, report);
+        return true;
+    }
+    struct desk_report felt = *report;
+    if (report_at(pen, scale * x, scale * y, &felt) &&
+        !is_other(pen, felt.time_ms, scale * x, scale * y, moved)) {
+        *report = felt;
+        report->pen = true;
+    }
+    return true;
+}

@@ -17,17 +17,21 @@ void desk_name_bars(GtkWidget *scrolled, const char *name);
 void desk_popover_drop_later(GtkWidget *popover);
 void desk_popover_end(GtkWidget *popover);
 
-struct desk_pen;
 /* desk_pen.c */
+struct desk_pen;
 struct desk_pen *desk_pen_create(GtkWidget *canvas);
 void desk_pen_destroy(struct desk_pen *pen);
-/* A pen's report at that time in milliseconds, as near as there is one; whether it was its
- * other end. False: no pen has spoken. */
-bool desk_pen_at(struct desk_pen *pen, guint32 time_ms, double *pressure, double tilt[2],
-                 bool *eraser);
-/* Whether what came at that time from that place of the surface, in pixels of the screen, a
- * move or else a button's, was told by a device that is no pen. */
-bool desk_pen_other(const struct desk_pen *pen, guint32 time_ms, double x_px, double y_px,
-                    bool moved);
+/* What a pen or a mouse tells. */
+struct desk_report {
+    guint32 time_ms;
+    double x, y; /* of the widget */
+    bool pen;
+    bool eraser;              /* it is the pen's other end */
+    double pressure, tilt[2]; /* of a pen: 0..1, -1..1; else 0 */
+};
+/* A motion or a button's event; past: one of the motions that GTK has joined in it; NULL: the
+ * last. False: it has no place in the widget. */
+bool desk_pen_report(struct desk_pen *pen, GtkWidget *widget, GdkEvent *event,
+                     const GdkTimeCoord *past, struct desk_report *report);
 
 #endif

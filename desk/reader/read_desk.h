@@ -12,6 +12,7 @@
  *     read_list.c      their list
  *     read_layers.c    readers' layers: which are shown, which is written
  *     read_layers_kept.c  the same, from one time to the next
+ *     read_pen.c       a pen's and a mouse's reports
  *     read_ink.c       ink
  *     read_spots.c     spots that are taken out of it
  *     read_chosen.c    strokes that are chosen: moved, scaled, grouped
@@ -157,6 +158,8 @@ struct read_desk {
     bool grouping;
     enum read_tool tool;
     struct desk_pen *pen;
+    bool hand_down, by_pen; /* a button of a mouse, or a pen's point */
+    bool eraser;            /* the pen's other end is */
     unsigned ink_rgba;
     double ink_width; /* ems */
     GArray *stroke;   /* struct reader_ink_point, in the window's pixels */
@@ -445,10 +448,11 @@ void read_ink_press(struct read_desk *d, double x, double y, double pressure, do
                     bool more);
 void read_ink_move(struct read_desk *d, double x, double y, double pressure, double time_s);
 void read_ink_release(struct read_desk *d, double x, double y);
-double read_ink_pressure(struct read_desk *d, guint32 time_ms, GdkEvent *event);
-/* Of a pen; without one what a mouse has. */
-double read_ink_pen(struct read_desk *d, guint32 time_ms, GdkEvent *event, double mouse);
 void read_ink_play(struct read_desk *d, bool erased); /* or ends it */
+
+/* read_pen.c */
+void read_pen_attach(struct read_desk *d);
+#define READ_MOUSE_PRESSURE 0.5 /* of ink */
 
 /* read_chosen.c */
 /* Whether it can be: ink that is seen, in the layer that is written. */

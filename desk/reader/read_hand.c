@@ -207,74 +207,58 @@ void read_hand_release(struct read_desk *d, double x, double y)
     d->acted(d);
 }
 
+/* With a tool the buttons of a mouse and a pen are read_pen.c's, a finger's touch is here. */
+static bool is_tools(const struct read_desk *d, GdkEvent *event)
+{
+    return d->tool != READ_TOOL_READ && event &&
+           gdk_event_get_event_type(event) != GDK_TOUCH_BEGIN &&
+           gdk_event_get_event_type(event) != GDK_TOUCH_END;
+}
+
 static void pressed(GtkGestureClick *click, int times, double x, double y, struct read_desk *d)
 {
     GtkEventController *controller = GTK_EVENT_CONTROLLER(click);
+    const GdkModifierType state = gtk_event_controller_get_current_event_state(controller);
     const guint32 now_ms = gtk_event_controller_get_current_event_time(controller);
-    GdkEvent *event = gtk_event_controller_get_current_event(controller);
-    if (d->tool == READ_TOOL_READ) {
-        d->pressure = read_ink_pen(d, now_ms, event, 1);
-        const GdkModifierType state = gtk_event_controller_get_current_event_state(controller);
-        bool inside;
-        size_t byte;
-        if (times == 1 && (state & GDK_SHIFT_MASK) && read_edit_press(d, x, y, 1, true))
-            return;
-        if ((state & GDK_CONTROL_MASK) && read_edit_on(d) &&
-            reader_view_hit(d->view, x, y, &byte, &inside) && inside &&
-            read_document_follow(d, byte))
-            return;
-        read_hand_press(d, x, y, times);
+    bool inside;
+    size_t byte;
+    if (is_tools(d, gtk_event_controller_get_current_event(controller)))
+        return;
+    if (d->tool != READ_TOOL_READ) {
+        gtk_widget_grab_focus(d->page);
+        d->eraser = false;
+        read_ink_press(d, x, y, READ_MOUSE_PRESSURE, now_ms * 1e-3, state & GDK_SHIFT_MASK);
         return;
     }
-    gtk_widget_grab_focus(d->page);
-    const bool more = gtk_event_controller_get_current_event_state(controller) & GDK_SHIFT_MASK;
-    read_ink_press(d, x, y, read_ink_pressure(d, now_ms, event), now_ms * 1e-3, more);
+    if (times == 1 && (state & GDK_SHIFT_MASK) && read_edit_press(d, x, y, 1, true))
+        return;
+    if ((state & GDK_CONTROL_MASK) && read_edit_on(d) &&
+        reader_view_hit(d->view, x, y, &byte, &inside) && inside &&
+        read_document_follow(d, byte))
+        return;
+    read_hand_press(d, x, y, times);
 }
 
 static void released(GtkGestureClick *click, int times, double x, double y, struct read_desk *d)
 {
-    (void)click;
     (void)times;
+    if (is_tools(d, gtk_event_controller_get_current_event(GTK_EVENT_CONTROLLER(click))))
+        return;
     if (d->tool == READ_TOOL_READ)
         read_hand_release(d, x, y);
     else
         read_ink_release(d, x, y);
 }
 
-/* All the places that GTK has joined into this motion, and it. */
-static void ink_moved(struct read_desk *d, GdkEvent *event, double x, double y)
-{
-    guint count = 0;
-    double here_x = x, here_y = y;
-    if (!event)
-        return;
-    gdk_event_get_position(event, &here_x, &here_y);
-    GdkTimeCoord *passed = gdk_event_get_history(event, &count);
-    for (guint i = 0; i < count; i++)
-        if (passed[i].flags & GDK_AXIS_FLAG_X)
-            read_ink_move(d, x + passed[i].axes[GDK_AXIS_X] - here_x,
-                          y + passed[i].axes[GDK_AXIS_Y] - here_y,
-                          read_ink_pressure(d, passed[i].time, event), passed[i].time * 1e-3);
-    g_free(passed);
-    const guint32 now_ms = gdk_event_get_time(event);
-    read_ink_move(d, x, y, read_ink_pressure(d, now_ms, event), now_ms * 1e-3);
-}
-
 static void moved(GtkEventControllerMotion *motion, double x, double y, struct read_desk *d)
 {
-    GdkEvent *event = gtk_event_controller_get_current_event(GTK_EVENT_CONTROLLER(motion));
-    if (d->tool != READ_TOOL_READ) {
-        ink_moved(d, event, x, y);
-        return;
-    }
-    if (event && read_stages_holds(d))
-        d->pressure = read_ink_pen(d, gdk_event_get_time(event), event, 1);
-    read_hand_move(d, x, y);
+    (void)motion;
+    if (d->tool == READ_TOOL_READ)
+        read_hand_move(d, x, y);
 }
 
 void read_hand_attach(struct read_desk *d)
 {
-    d->pen = desk_pen_create(d->page);
     GtkEventController *scroll = gtk_event_controller_scroll_new(
         GTK_EVENT_CONTROLLER_SCROLL_BOTH_AXES | GTK_EVENT_CONTROLLER_SCROLL_KINETIC);
     GtkEventController *motion = gtk_event_controller_motion_new();
@@ -290,4 +274,5 @@ void read_hand_attach(struct read_desk *d)
     gtk_widget_add_controller(d->page, GTK_EVENT_CONTROLLER(click));
     drag_attach(d, GDK_BUTTON_MIDDLE, false);
     drag_attach(d, GDK_BUTTON_PRIMARY, true);
+    read_pen_attach(d); /* hears before them */
 }

@@ -5,8 +5,6 @@
 
 #include <math.h>
 
-#define MOUSE_PRESSURE 0.5f
-
 enum { ERASER_PX = 10 };
 
 /* ---- drawing ---- */
@@ -113,16 +111,25 @@ static void erase_at(struct read_desk *d, double x, double y)
         read_remarks_erase(d, index);
 }
 
+/* A pen that is turned round erases. */
+static enum read_tool tool_now(const struct read_desk *d)
+{
+    return d->tool == READ_TOOL_PEN && d->eraser ? READ_TOOL_ERASER : d->tool;
+}
+
 void read_ink_press(struct read_desk *d, double x, double y, double pressure, double time_s,
                     bool more)
 {
+    const enum read_tool tool = tool_now(d);
     d->drawn = true;
     d->playing = false;
-    if (d->tool == READ_TOOL_ERASER)
+    d->pointer_x = x;
+    d->pointer_y = y;
+    if (tool == READ_TOOL_ERASER)
         erase_at(d, x, y);
-    else if (d->tool == READ_TOOL_SPOTS)
+    else if (tool == READ_TOOL_SPOTS)
         read_spots_add(d, x, y);
-    else if (d->tool == READ_TOOL_MOVE)
+    else if (tool == READ_TOOL_MOVE)
         read_chosen_press(d, x, y, more);
     else
         point_add(d, x, y, pressure, time_s);
@@ -130,15 +137,18 @@ void read_ink_press(struct read_desk *d, double x, double y, double pressure, do
 
 void read_ink_move(struct read_desk *d, double x, double y, double pressure, double time_s)
 {
+    const enum read_tool tool = tool_now(d);
+    d->pointer_x = x;
+    d->pointer_y = y;
     if (!d->drawn)
         return;
-    if (d->tool == READ_TOOL_ERASER)
+    if (tool == READ_TOOL_ERASER)
         erase_at(d, x, y);
-    else if (d->tool == READ_TOOL_SPOTS)
+    else if (tool == READ_TOOL_SPOTS)
         read_spots_add(d, x, y);
-    else if (d->tool == READ_TOOL_MOVE)
+    else if (tool == READ_TOOL_MOVE)
         read_chosen_drag(d, x, y);
-    else if (d->tool == READ_TOOL_PEN)
+    else if (tool == READ_TOOL_PEN)
         point_add(d, x, y, pressure, time_s);
 }
 
@@ -200,22 +210,6 @@ void read_ink_release(struct read_desk *d, double x, double y)
         read_chosen_release(d);
     }
     read_page_changed(d);
-}
-
-/* A pen's pressure, from X11 or from GTK; a mouse has one in the middle. */
-double read_ink_pen(struct read_desk *d, guint32 time_ms, GdkEvent *event, double mouse)
-{
-    double pressure = mouse, tilt[2];
-    bool eraser;
-    if (!desk_pen_at(d->pen, time_ms, &pressure, tilt, &eraser) && event &&
-        gdk_event_get_device_tool(event))
-        gdk_event_get_axis(event, GDK_AXIS_PRESSURE, &pressure);
-    return pressure;
-}
-
-double read_ink_pressure(struct read_desk *d, guint32 time_ms, GdkEvent *event)
-{
-    return read_ink_pen(d, time_ms, event, (double)MOUSE_PRESSURE);
 }
 
 /* ---- playing back ---- */

@@ -98,6 +98,7 @@ static bool scroll_key(struct read_desk *d, guint key, bool shift)
 
 static void tool_set(struct read_desk *d, enum read_tool tool)
 {
+    read_ink_release(d, d->pointer_x, d->pointer_y);   /* what is being drawn ends */
     d->tool = d->tool == tool ? READ_TOOL_READ : tool; /* the same key again: one reads */
     read_chosen_none(d);
     gtk_widget_set_cursor_from_name(d->page, d->tool == READ_TOOL_READ   ? "text"

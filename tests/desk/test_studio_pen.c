@@ -13,15 +13,12 @@
 #include <X11/Xlib.h>
 #include <X11/extensions/XTest.h>
 #include <X11/keysym.h>
-#include <fcntl.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,16 +26,18 @@
 #include <studio_settings.h>
 
 #include "clock.h"
+#include "inputtest.h"
 #include "studio_scene.h"
 #include "xorg.h"
 
-enum { WAIT_S = 90, SCREEN_WIDTH = 1280, SCREEN_HEIGHT = 1024, ZOOM = 4 };
+enum { WAIT_S = 90, ZOOM = 4 };
 enum { PEN, FLAT, MOUSE, DEVICES };
+static const struct inputtest_kind devices[DEVICES] = {
+    {"pen", true, true}, {"flat", true, false}, {"mouse", false, false}};
 
 static char folder[] = "/tmp/lutetia-pen-XXXXXX";
 static pid_t studio = -1;
 static Display *display;
-static int devices[DEVICES]; /* sockets */
 
 static const char *path_of(const char *name)
 {
@@ -47,136 +46,6 @@ static const char *path_of(const char *name)
     char *path = paths[next++ % 8];
     snprintf(path, sizeof paths[0], "%s/%s", folder, name);
     return path;
-}
-
-/* ---- the server ---- */
-
-static const char *const device_kinds[DEVICES][3] = {
-    {"pen", "PointerAbsoluteProximity", "true"},
-    {"flat", "PointerAbsoluteProximity", "false"},
-    {"mouse", "Pointer", "false"}};
-
-static bool config_write(void)
-{
-    FILE *file = fopen(path_of("conf"), "w");
-    if (!file)
-        return false;
-    fputs("Section \"ServerFlags\"\n Option \"AutoAddDevices\" \"false\"\nEndSection\n"
-          "Section \"Device\"\n Identifier \"d\"\n Driver \"dummy\"\n VideoRam 65536\n"
-          "EndSection\n"
-          "Section \"Monitor\"\n Identifier \"m\"\n HorizSync 5-1000\n VertRefresh 5-200\n"
-          " Modeline \"1280x1024\" 108 1280 1328 1440 1688 1024 1025 1028 1066\nEndSection\n"
-          "Section \"Screen\"\n Identifier \"s\"\n Device \"d\"\n Monitor \"m\"\n"
-          " DefaultDepth 24\n SubSection \"Display\"\n  Depth 24\n  Modes \"1280x1024\"\n"
-          " EndSubSection\nEndSection\n"
-          "Section \"ServerLayout\"\n Identifier \"l\"\n Screen \"s\"\n InputDevice \"pen\"\n"
-          " InputDevice \"flat\"\n InputDevice \"mouse\" \"CorePointer\"\nEndSection\n",
-          file);
-    for (int i = 0; i < DEVICES; i++)
-        fprintf(file,
-                "Section \"InputDevice\"\n Identifier \"%s\"\n Driver \"inputtest\"\n"
-                " Option \"SocketPath\" \"%s\"\n Option \"DeviceType\" \"%s\"\n"
-                " Option \"PointerHasPressure\" \"%s\"\nEndSection\n",
-                device_kinds[i][0], path_of(device_kinds[i][0]), device_kinds[i][1],
-                device_kinds[i][2]);
-    return fclose(file) == 0;
-}
-
-/* ---- what the driver hears ---- */
-
-/* Its messages: numbers as the machine has them; each begins with its length in bytes and its
- * kind, and axes are those that the mask names. */
-enum { HEAR_VERSION, HEAR_SYNC, HEAR_MOTION, HEAR_PROXIMITY, HEAR_BUTTON };
-enum { AXES = 64, AXIS_X = 0, AXIS_Y = 1, AXIS_PRESSURE = 4 };
-#define AXIS_MOST 65535.0 /* of a place */
-#define PRESSURE_MOST 1000.0
-
-struct head {
-    uint32_t bytes, kind;
-};
-
-struct axes {
-    uint32_t both; /* as moved, and as felt */
-    uint8_t mask[AXES / 8];
-    double moved[AXES], felt[AXES];
-};
-
-struct motion {
-    struct head head;
-    uint32_t absolute;
-    struct axes axes;
-};
-
-struct button {
-    struct head head;
-    int32_t absolute, number;
-    uint32_t pressed;
-    struct axes axes;
-};
-
-static bool tell(int device, const void *message, size_t bytes)
-{
-    return write(devices[device], message, bytes) == (ssize_t)bytes;
-}
-
-/* Until all that was told has happened. */
-static void settle(int device)
-{
-    const struct head wait = {sizeof wait, HEAR_SYNC};
-    struct head done;
-    assert_true(tell(device, &wait, sizeof wait));
-    assert_int_equal(read(devices[device], &done, sizeof done), sizeof done);
-}
-
-static bool device_open(int device)
-{
-    struct sockaddr_un address = {.sun_family = AF_UNIX};
-    struct {
-        struct head head;
-        uint16_t major, minor;
-    } version = {{sizeof version, HEAR_VERSION}, 1, 0}, answer;
-    snprintf(address.sun_path, sizeof address.sun_path, "%s", path_of(device_kinds[device][0]));
-    devices[device] = socket(AF_UNIX, SOCK_STREAM, 0);
-    return connect(devices[device], (struct sockaddr *)&address, sizeof address) == 0 &&
-           tell(device, &version, sizeof version) &&
-           read(devices[device], &answer, sizeof answer) == sizeof answer;
-}
-
-static void axis_set(struct axes *axes, int axis, double value)
-{
-    axes->mask[axis / 8] = (uint8_t)(axes->mask[axis / 8] | 1u << axis % 8);
-    axes->moved[axis] = axes->felt[axis] = value;
-}
-
-/* pressure < 0: it has none. */
-static void pen_move(int device, double x_px, double y_px, double pressure)
-{
-    struct motion motion = {.head = {sizeof motion, HEAR_MOTION}, .absolute = 1};
-    axis_set(&motion.axes, AXIS_X, x_px / SCREEN_WIDTH * AXIS_MOST);
-    axis_set(&motion.axes, AXIS_Y, y_px / SCREEN_HEIGHT * AXIS_MOST);
-    if (pressure >= 0)
-        axis_set(&motion.axes, AXIS_PRESSURE, pressure * PRESSURE_MOST);
-    assert_true(tell(device, &motion, sizeof motion));
-    settle(device);
-}
-
-static void mouse_move(double right_px, double down_px)
-{
-    struct motion motion = {.head = {sizeof motion, HEAR_MOTION}};
-    axis_set(&motion.axes, AXIS_X, right_px);
-    axis_set(&motion.axes, AXIS_Y, down_px);
-    assert_true(tell(MOUSE, &motion, sizeof motion));
-    settle(MOUSE);
-}
-
-static void press(int device, bool down)
-{
-    const struct button button = {.head = {sizeof button, HEAR_BUTTON},
-                                  .absolute = device != MOUSE,
-                                  .number = 1,
-                                  .pressed = down};
-    assert_true(tell(device, &button, sizeof button));
-    settle(device);
 }
 
 static void key_type(KeySym key)
@@ -304,26 +173,26 @@ static void stroke_paint(int device, bool bumped)
     double place[2];
     for (int i = 0; i < REPORTS; i++) {
         place_of(i, place);
-        pen_move(device, place[0], place[1] + 60, device == FLAT ? -1 : i % 3 ? 0 : 0.2);
+        inputtest_move(device, place[0], place[1] + 60, device == FLAT ? -1 : i % 3 ? 0 : 0.2);
     }
     place_of(0, place);
-    pen_move(device, place[0], place[1], device == FLAT ? -1 : pressure_of(0));
-    press(device, true);
+    inputtest_move(device, place[0], place[1], device == FLAT ? -1 : pressure_of(0));
+    inputtest_press(device, true);
     for (int i = 1; i < REPORTS; i++) {
         place_of(i, place);
         if (bumped && i % 7 == 3)
-            mouse_move(30, -20);
+            inputtest_push(MOUSE, 30, -20);
         if (bumped && i % 20 == 11) {
-            press(MOUSE, true);
-            press(MOUSE, false);
+            inputtest_press(MOUSE, true);
+            inputtest_press(MOUSE, false);
         }
-        pen_move(device, place[0], place[1], device == FLAT ? -1 : pressure_of(i));
+        inputtest_move(device, place[0], place[1], device == FLAT ? -1 : pressure_of(i));
         usleep(3000);
     }
-    press(device, false);
+    inputtest_press(device, false);
     for (int i = 0; i < REPORTS; i++) {
         place_of(i, place);
-        pen_move(device, place[0], place[1] + 80, device == FLAT ? -1 : 0);
+        inputtest_move(device, place[0], place[1] + 80, device == FLAT ? -1 : 0);
     }
 }
 
@@ -394,15 +263,12 @@ int main(void)
         cmocka_unit_test_setup_teardown(mouse_changes_nothing, studio_start, studio_end),
         cmocka_unit_test_setup_teardown(pen_without_pressure_paints, studio_start, studio_end),
     };
-    bool ready = mkdtemp(folder) && config_write() && xorg_start(folder);
-    display = xorg_display();
-    for (int i = 0; ready && i < DEVICES; i++)
-        ready = device_open(i);
-    if (!ready) {
+    if (!mkdtemp(folder) || !inputtest_start(folder, devices, DEVICES)) {
         xorg_end(folder);
         puts("[  SKIPPED ] no Xorg with the drivers dummy and inputtest");
         return 77;
     }
+    display = xorg_display();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     xorg_end(folder);
     return failed;
