@@ -58,6 +58,12 @@ static bool reader_wrong(void)
     return bench_fail("%s", reader_error());
 }
 
+/* What stands in the middle besides words: to be edited. */
+static const char pieces[] =
+    "A formula $x_1^2 + \\frac{a}{b}$ in a paragraph[^n] that calls a note.\n\n"
+    "```c\nint main(void)\n{\n    return 0;\n}\n```\n\n"
+    "[^n]: What the note *says*.\n\n";
+
 static bool book_write(struct book *b, int count)
 {
     FILE *out = open_memstream(&b->markdown, &b->bytes);
@@ -67,6 +73,8 @@ static bool book_write(struct book *b, int count)
     for (int i = 0; i < count; i++) {
         if (i % (PARAGRAPH_WORDS * CHAPTER_PARAGRAPHS) == 0)
             fprintf(out, "## Chapter %d\n\n", i);
+        if (i == count / 2 / PARAGRAPH_WORDS * PARAGRAPH_WORDS)
+            fputs(pieces, out);
         random = random * 1664525u + 1013904223u;
         fprintf(out, "%s%s", words[(random >> 16) % (sizeof words / sizeof *words)],
                 i % PARAGRAPH_WORDS == PARAGRAPH_WORDS - 1 ? ".\n\n" : " ");
@@ -195,8 +203,8 @@ static bool all_opened(struct book *b)
 
 /* ---- editing ---- */
 
-/* Opened to be edited, and seen in the middle: the caret is within a block of that kind. */
-static bool edit_opened(struct book *b, enum reader_kind kind)
+/* Opened to be edited, and seen in the middle: the caret is at these words. */
+static bool edit_opened(struct book *b, const char *at)
 {
     book_close(b);
     b->files = (struct reader_files){.keep = true};
@@ -207,22 +215,60 @@ static bool edit_opened(struct book *b, enum reader_kind kind)
         reader_view_create(b->document, &b->setup, &b->view) != READER_OK ||
         reader_edit_create(&b->document, &b->files, NULL, &b->edit) != READER_OK)
         return reader_wrong();
-    int i = b->document->blocks_count / 2;
-    while (i > 0 && b->document->blocks[i].kind != kind)
-        i--;
-    b->middle = b->document->blocks[i].at;
+    const char *found = strstr(b->document->plain, at);
+    if (!found)
+        return bench_fail("'%s' is not there", at);
+    b->middle = b->caret = (size_t)(found - b->document->plain);
+    return middle_seen(b);
+}
+
+/* A paragraph or a heading before the middle. */
+static bool kind_opened(struct book *b, enum reader_kind kind)
+{
+    if (!edit_opened(b, "A formula"))
+        return false;
+    const struct reader_block *block = reader_document_block(b->document, b->middle);
+    do
+        block--;
+    while (block > b->document->blocks && block->kind != kind);
+    b->middle = block->at;
     b->caret = b->middle + 5;
     return middle_seen(b);
 }
 
 static bool paragraph_opened(struct book *b)
 {
-    return edit_opened(b, READER_PARAGRAPH);
+    return kind_opened(b, READER_PARAGRAPH);
 }
 
 static bool heading_opened(struct book *b)
 {
-    return edit_opened(b, READER_HEADING);
+    return kind_opened(b, READER_HEADING);
+}
+
+static bool code_opened(struct book *b)
+{
+    return edit_opened(b, "return 0");
+}
+
+static bool formula_opened(struct book *b)
+{
+    return edit_opened(b, "+ \\frac");
+}
+
+static bool caller_opened(struct book *b)
+{
+    return edit_opened(b, "in a paragraph");
+}
+
+/* A note that is open where it is called. */
+static bool note_opened(struct book *b)
+{
+    if (!edit_opened(b, "the note says"))
+        return false;
+    b->middle = (size_t)(strstr(b->document->plain, "A formula") - b->document->plain);
+    return (reader_view_note(b->view, 0, b->middle) == READER_OK || reader_wrong()) &&
+           middle_seen(b);
 }
 
 /* Paints the passage that has the caret, as the window does. */
@@ -255,6 +301,7 @@ static bool letter_typed(struct book *b)
     if (good && change.before) {
         good = reader_view_create(b->document, &b->setup, &view) == READER_OK;
         if (good) {
+            reader_view_as(view, b->view);
             reader_view_destroy(b->view);
             b->view = view;
             good = reader_view_go(view, b->middle, 0) == READER_OK;
@@ -330,6 +377,10 @@ static const struct row {
     {"another font", middle_seen, other_font, NULL},
     {"a letter", paragraph_opened, letter_typed, NULL},
     {"in a heading", heading_opened, letter_typed, NULL},
+    {"in code", code_opened, letter_typed, NULL},
+    {"in a formula", formula_opened, letter_typed, NULL},
+    {"beside a note", caller_opened, letter_typed, NULL},
+    {"in a note", note_opened, letter_typed, NULL},
     {"everything", opened, all_seen, pango_all},
     {"all, new width", all_opened, all_other_width, pango_all},
     {"all, new size", all_opened, all_other_size, pango_all},

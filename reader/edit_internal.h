@@ -1,6 +1,7 @@
 /* edit_internal.h - what the files of editing share: where letters of a block stand in its
- * source (edit_map.c), one block read alone (edit_block.c), whether what is read is what
- * was meant (edit_meant.c), changes and undo (edit.c), typing (edit_type.c). */
+ * source (edit_map.c), lines read alone (edit_alone.c), one block set in place (edit_block.c),
+ * whether what is read is what was meant (edit_meant.c), changes and undo (edit.c), typing
+ * (edit_type.c). */
 #ifndef LUTETIA_READER_EDIT_INTERNAL_H
 #define LUTETIA_READER_EDIT_INTERNAL_H
 
@@ -56,8 +57,31 @@ bool edit_moves_find(const struct reader_document *before, const struct reader_d
 bool edit_move_add(struct reader_edit_change *change, size_t at, size_t removed,
                    size_t inserted);
 
+/* Lines of a source that are read alone, as they were and as they become. */
+struct edit_alone {
+    size_t begin, end; /* of the source, with blank lines behind them */
+    int line;          /* the first of them */
+    int more;          /* by so many lines they become more */
+    bool code;         /* a fence */
+    bool notes;        /* a note's text: */
+    int note;          /* of the document's; else -1 */
+    int ahead;         /* lines that are read before them */
+    struct reader_document *was, *now;
+    /* edit_block.c: */
+    int first;   /* block of the document's; those of `was` are it and the next ones */
+    int changed; /* of their blocks */
+    int lines;   /* by so many that one has more */
+};
+/* False: they cannot be read alone. The caller finishes *out. */
+bool edit_alone_read(const struct reader_document *d, const struct reader_bytes *source,
+                     const struct edit_splice *splice, struct edit_alone *out);
+void edit_alone_finish(struct edit_alone *alone);
+/* The note of that name in a source of the document's; -1: there is none. */
+int edit_note_of(const struct reader_document *d, int source, const struct reader_note *note);
+
 /* The block that the splice is in, read with the lines around it alone, in place. *done: it
- * was; else others have to do with it, or it is not what is meant. */
+ * was; else others have to do with it. Errors: BAD_ARGUMENT: whatever is read, it is not what is
+ * meant; NO_MEMORY. */
 enum reader_status edit_block_try(struct reader_document *d, struct reader_files *files,
                                   const struct edit_splice *splice,
                                   const struct edit_meant *meant,

@@ -393,6 +393,26 @@ static void code_walk(struct walk *w, bool fenced)
     }
 }
 
+/* The letters of a formula between two dollars, which begins in the block's line and may go on
+ * in the next ones. False: it is a fence. */
+static bool formula_walk(struct walk *w, int all)
+{
+    const struct reader_block *b = w->block;
+    for (int at = w->map->first; at + b->bytes + 4 <= all && at < w->end; at++) {
+        int i = 0;
+        while (i < b->bytes && w->s[at + 2 + i] == b->text[i])
+            i++;
+        if (i < b->bytes || strncmp(w->s + at, "$$", 2) != 0 ||
+            strncmp(w->s + at + 2 + i, "$$", 2) != 0)
+            continue;
+        w->map->head = at + 2;
+        for (int k = 0; k < b->bytes; k++)
+            byte_keep(w, at + 2 + k, at + 3 + k);
+        return true;
+    }
+    return false;
+}
+
 static int head_find(const struct reader_block *block, const char *s, int first, int last)
 {
     const char *line_stop = memchr(s + first, '\n', (size_t)(last - first));
@@ -444,6 +464,8 @@ static bool map_from(const struct reader_block *block, const struct reader_bytes
     case READER_CODE_BLOCK:
     case READER_LIVE:
     case READER_MATH:
+        if (block->kind == READER_MATH && formula_walk(&w, (int)source->bytes))
+            break;
         code_walk(&w, source->text[out->head] == '`' || source->text[out->head] == '~');
         break;
     case READER_HTML:

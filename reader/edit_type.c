@@ -97,14 +97,16 @@ static char *write_as(const char *text, size_t count, enum written how, const ch
     return out;
 }
 
-/* What lines of code begin with, in lists and quotes. */
+/* What lines of code begin with, in lists and quotes; of a formula between dollars, nothing. */
 static void code_line(const struct spot *s, char to[EDIT_PREFIX_BYTES])
 {
     int begin = s->map.head;
     const char *t = s->source->text;
     while (begin > 0 && t[begin - 1] != '\n')
         begin--;
-    snprintf(to, EDIT_PREFIX_BYTES, "%.*s", s->map.head - begin, t + begin);
+    const bool dollar =
+        s->block->kind == READER_MATH && s->map.head && t[s->map.head - 1] == '$';
+    snprintf(to, EDIT_PREFIX_BYTES, "%.*s", dollar ? 0 : s->map.head - begin, t + begin);
 }
 
 static enum reader_status try_bytes(struct reader_edit *e, int source, int begin, int end,

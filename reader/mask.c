@@ -282,38 +282,66 @@ static int head_mask(struct masking *m)
     return end;
 }
 
-enum reader_status reader_mask_make(const char *source, int bytes, struct reader_mask *out)
+/* All of its source, from the head on. */
+static void mask_run(struct masking *m)
 {
-    struct masking m = {
+    int paragraph = 0; /* its end, once it is known */
+    for (int at = head_mask(m); at < m->bytes && m->status == READER_OK;) {
+        const int end = line_end(m, at);
+        const bool begins = at == 0 || m->source[at - 1] == '\n';
+        if (begins && line_is_fenced(m, at, end)) {
+            at = end;
+        } else {
+            if (paragraph <= at)
+                paragraph = paragraph_end(m, at);
+            at = rest_take(m, at, paragraph);
+        }
+        if (at < m->bytes && m->source[at] == '\n') {
+            at++;
+            m->line++;
+        }
+    }
+}
+
+static enum reader_status masking_begin(struct masking *m, const char *source, int bytes,
+                                        struct reader_mask *out)
+{
+    *m = (struct masking){
         .source = source, .bytes = bytes, .line = 1, .out = out, .status = READER_OK};
     *out = (struct reader_mask){.masked = malloc((size_t)bytes + 1)};
     if (!out->masked)
         return reader_fail(READER_NO_MEMORY, "no memory for a document");
-    m.utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", (locale_t)0);
+    m->utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", (locale_t)0);
     memcpy(out->masked, source, (size_t)bytes);
     out->masked[bytes] = '\0';
+    return READER_OK;
+}
+
+enum reader_status reader_mask_make(const char *source, int bytes, struct reader_mask *out)
+{
+    struct masking m;
+    if (masking_begin(&m, source, bytes, out) != READER_OK)
+        return READER_NO_MEMORY;
     for (int k = 0; k + 1 < bytes; k++) /* what stands for formulas stands for nothing else */
         if (memcmp(source + k, READER_MASK_SIGN, 2) == 0)
             out->masked[k + 1] = (char)0x92;
-    int paragraph = 0; /* its end, once it is known */
-    for (int at = head_mask(&m); at < bytes && m.status == READER_OK;) {
-        int end = line_end(&m, at);
-        bool begins = at == 0 || source[at - 1] == '\n';
-        if (begins && line_is_fenced(&m, at, end)) {
-            at = end;
-        } else {
-            if (paragraph <= at)
-                paragraph = paragraph_end(&m, at);
-            at = rest_take(&m, at, paragraph);
-        }
-        if (at < bytes && source[at] == '\n') {
-            at++;
-            m.line++;
-        }
-    }
+    mask_run(&m);
     if (m.utf8)
         freelocale(m.utf8);
     if (m.status != READER_OK)
         reader_mask_finish(out);
     return m.status;
+}
+
+bool reader_mask_is_fenced(const char *source, int bytes)
+{
+    struct reader_mask mask;
+    struct masking m;
+    if (masking_begin(&m, source, bytes, &mask) != READER_OK)
+        return true;
+    mask_run(&m);
+    if (m.utf8)
+        freelocale(m.utf8);
+    reader_mask_finish(&mask);
+    return m.fence || m.status != READER_OK;
 }

@@ -16,9 +16,9 @@
  * is written with a backslash before it, and what cannot be told in Markdown at that place is
  * refused, with a line that says so, and all is as it was.
  *
- * Where only one paragraph is touched, whose Markdown nothing else can depend on, it alone is
- * read again, and the document is changed in place (change.block). Else all files are read
- * again, and there is another document.
+ * Where only one paragraph, fence of code or note is touched, whose Markdown nothing else can
+ * depend on, it alone is read again, and the document is changed in place (change.block). Else
+ * all files are read again, and there is another document.
  *
  * Markdown has no empty paragraph, and no blank at the end of one. So what is typed there
  * waits (change.waits) until the next letter comes.
@@ -46,7 +46,7 @@ struct reader_edit_move {
 };
 
 struct reader_edit_change {
-    int block;                      /* of the document's, in place; else -1 */
+    int block; /* of the document's, and behind those of its notes, in place; else -1 */
     struct reader_document *before; /* that another one has come for; NULL: none has */
     struct reader_edit_move *moves; /* one after the other */
     int moves_count;

@@ -78,5 +78,8 @@ char reader_mask_letter(int formula);
 /* Errors: TOO_LARGE, NO_MEMORY. Owns: the caller finishes *out. */
 enum reader_status reader_mask_make(const char *source, int bytes, struct reader_mask *out);
 void reader_mask_finish(struct reader_mask *mask);
+/* Whether behind these bytes, the begin of a source, a fence is open in which no formulas are
+ * looked for; true: or nobody knows. */
+bool reader_mask_is_fenced(const char *source, int bytes);
 
 #endif

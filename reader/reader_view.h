@@ -134,9 +134,9 @@ bool reader_view_caret(struct reader_view *view, size_t byte, bool before,
 bool reader_view_caret_at(struct reader_view *view, double x, double y, size_t *byte,
                           bool *before);
 
-/* One block of the document, a passage, has been changed in place: bytes at..at + removed of
- * the plain text have become `inserted` others. It alone is set anew. Errors: as
- * reader_view_look(). */
+/* One block of the document, or behind those one of its notes, has been changed in place: bytes
+ * at..at + removed of the plain text have become `inserted` others. Its passage alone is set
+ * anew, or those that show the note. Errors: as reader_view_look(). */
 enum reader_status reader_view_edited(struct reader_view *view, int block, size_t at,
                                       size_t removed, size_t inserted);
 /* Notes that are open in a view of a document that another one has come for are open, where as

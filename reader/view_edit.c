@@ -114,13 +114,35 @@ static void bytes_move(struct reader_view *view, size_t at, size_t removed, size
             }
 }
 
+static bool has_note(const struct made_passage *made, int note)
+{
+    for (int i = 0; i < made->count; i++)
+        if (made->paragraphs[i].note == note)
+            return true;
+    return false;
+}
+
+/* A note's text is other, wherever it is seen. */
+static enum reader_status note_edited(struct reader_view *view, int note)
+{
+    enum reader_status status = READER_OK;
+    for (int i = view->begin; i < view->end && status == READER_OK; i++)
+        if (has_note(&view->loaded[i - view->begin], note))
+            status = view_again(view, i);
+    if (note >= 0 && view->opened[note])
+        view->passages[view->opened[note] - 1].known = false;
+    return status;
+}
+
 enum reader_status reader_view_edited(struct reader_view *view, int block, size_t at,
                                       size_t removed, size_t inserted)
 {
     int passage = 0;
+    bytes_move(view, at, removed, inserted);
+    if (block >= view->document->blocks_count)
+        return note_edited(view, view_note_of(view, block - view->document->blocks_count));
     while (passage + 1 < view->count && view->passages[passage + 1].first <= block)
         passage++;
-    bytes_move(view, at, removed, inserted);
     if (view->besides && view_passage_length(view, view->passages[passage].first) !=
                              view->passages[passage].blocks)
         return view_grouped(view);

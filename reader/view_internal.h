@@ -74,6 +74,8 @@ double view_full_px(const struct reader_view *view, int passage);
 long view_byte_of(const struct made_passage *made, struct page_place place);
 /* The first paragraph of a block; -1: it has none here. */
 int view_paragraph_of(const struct made_passage *made, int block);
+/* The note whose block, of the document's notes, it is; -1: none's. */
+int view_note_of(const struct reader_view *view, int block);
 /* The passage of a byte; of a closed note: where it is called. */
 int view_passage_of(const struct reader_view *view, size_t byte);
 /* From the passage's upper edge to the upper and the lower edge of the line that a byte is in.

@@ -79,9 +79,9 @@ static bool place_of(const struct made_passage *made, size_t byte, struct page_p
     return false;
 }
 
-/* The note whose block it is. */
-static int note_of_block(const struct reader_document *d, int block)
+int view_note_of(const struct reader_view *view, int block)
 {
+    const struct reader_document *d = view->document;
     for (int i = 0; i < d->notes_count; i++)
         if (block >= d->notes[i].first_block &&
             block < d->notes[i].first_block + d->notes[i].blocks_count)
@@ -112,7 +112,7 @@ int view_passage_of(const struct reader_view *view, size_t byte)
             return 0;
         if (block >= d->blocks && block < d->blocks + d->blocks_count)
             return passage_of_block(view, (int)(block - d->blocks));
-        const int note = note_of_block(d, (int)(block - d->note_blocks));
+        const int note = view_note_of(view, (int)(block - d->note_blocks));
         if (note >= 0 && view->opened[note])
             return view->opened[note] - 1;
         if (note < 0 || view->called[note] == SIZE_MAX)

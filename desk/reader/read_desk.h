@@ -25,6 +25,7 @@
  *     read_changed.c   what follows when the page is other
  *     read_heard.c     the page's text for screen readers
  *     read_stages.c    demonstrations in it
+ *     read_stages_draw.c  how they are seen
  *     read_stages_hand.c  pointer and keys for them
  *     read_controls.c  their controls
  *     read_printed.c   what those of them that are programs print
@@ -254,7 +255,8 @@ void read_stages_forget(struct read_desk *d); /* the document is another one */
 void read_stages_again(struct read_desk *d);
 /* It is another one after an edit: those whose scripts are what they were go on. */
 void read_stages_follow_document(struct read_desk *d, const struct reader_document *before);
-void read_stages_finish(struct read_desk *d); /* with the page: all end */
+void read_stages_edited(struct read_desk *d, int block); /* the same of one block, in place */
+void read_stages_finish(struct read_desk *d);            /* with the page: all end */
 void read_stages_destroy(struct read_stages *stages);
 void read_stages_changed(struct read_desk *d); /* others may be seen, or elsewhere */
 void read_stages_place(struct read_desk *d);   /* where their strips are */

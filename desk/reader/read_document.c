@@ -236,6 +236,7 @@ void read_document_edited(struct read_desk *d, const struct reader_edit_change *
                                change->moves[i].removed,
                                change->moves[i].inserted) != READER_OK)
             d->say(d, reader_error());
+    read_stages_edited(d, change->block);
     read_text_around(d);
 }
 

@@ -363,6 +363,29 @@ static int live_number(const struct reader_document *d, int block)
     return number;
 }
 
+/* Its script is other: it ends. */
+static void edited_end(struct read_desk *d, guint i)
+{
+    struct read_stages *stages = d->stages;
+    struct stage *s = g_ptr_array_index(stages->all, i);
+    edited_note(stages, s);
+    stages->held = stages->held == s ? NULL : stages->held;
+    stages->keyed = stages->keyed == s ? NULL : stages->keyed;
+    if (d->page)
+        gtk_widget_unparent(s->strip);
+    g_ptr_array_remove_index(stages->all, i);
+    stage_free(s);
+}
+
+void read_stages_edited(struct read_desk *d, int block)
+{
+    struct read_stages *stages = d->stages;
+    for (guint i = stages->all->len; i > 0; i--)
+        if (((const struct stage *)g_ptr_array_index(stages->all, i - 1))->block == block)
+            edited_end(d, i - 1);
+    edited_wait(stages);
+}
+
 void read_stages_follow_document(struct read_desk *d, const struct reader_document *before)
 {
     struct read_stages *stages = d->stages;
@@ -375,13 +398,7 @@ void read_stages_follow_document(struct read_desk *d, const struct reader_docume
             s->number = program_number(d->document, now);
             continue;
         }
-        edited_note(stages, s);
-        stages->held = stages->held == s ? NULL : stages->held;
-        stages->keyed = stages->keyed == s ? NULL : stages->keyed;
-        if (d->page)
-            gtk_widget_unparent(s->strip);
-        g_ptr_array_remove_index(stages->all, i - 1);
-        stage_free(s);
+        edited_end(d, i - 1);
     }
     edited_wait(stages);
 }
@@ -496,42 +513,6 @@ void read_stages_place(struct read_desk *d)
     for (guint i = 0; i < d->stages->all->len; i++)
         strip_place(g_ptr_array_index(d->stages->all, i));
     tick_ensure(d->stages);
-}
-
-/* ---- drawing ---- */
-
-static void frame_draw(const struct read_desk *d, GtkSnapshot *snapshot,
-                       const graphene_rect_t *box, bool keyed)
-{
-    const double *c = keyed ? d->colours->link : d->colours->struck;
-    const float width = keyed ? 2 : 1;
-    const GdkRGBA rgba = {(float)c[0], (float)c[1], (float)c[2], 1};
-    GskRoundedRect outline;
-    gsk_rounded_rect_init_from_rect(&outline, box, 0);
-    gtk_snapshot_append_border(snapshot, &outline, (const float[]){width, width, width, width},
-                               (const GdkRGBA[]){rgba, rgba, rgba, rgba});
-}
-
-/* Tab has come to it. */
-static bool is_focused(const struct read_desk *d, const struct stage *s)
-{
-    return gtk_widget_has_focus(d->page) && d->focused == d->document->blocks[s->block].at;
-}
-
-void read_stages_draw(struct read_desk *d, GtkSnapshot *snapshot)
-{
-    for (guint i = 0; i < d->stages->all->len; i++) {
-        const struct stage *s = g_ptr_array_index(d->stages->all, i);
-        const graphene_rect_t box =
-            GRAPHENE_RECT_INIT((float)s->place.x, (float)s->place.y, (float)s->place.width,
-                               (float)s->place.height);
-        if (!s->seen)
-            continue;
-        if (s->texture)
-            gtk_snapshot_append_texture(snapshot, s->texture, &box);
-        frame_draw(d, snapshot, &box, d->stages->keyed == s || is_focused(d, s));
-        gtk_widget_snapshot_child(d->page, s->strip, snapshot);
-    }
 }
 
 /* ---- running ---- */

@@ -20,121 +20,12 @@
 #include <unistd.h>
 
 #include "../sample.h"
+#include "edited.h"
 #include "without_library.h"
 
 static char folder[] = "/tmp/lutetia-edit-XXXXXX";
 
-/* A document that is edited. */
-struct edited {
-    struct reader_document *document;
-    struct reader_files files;
-    struct reader_remarks *remarks;
-    struct reader_edit *edit;
-};
-
-static void document_read(struct edited *e, const struct reader_bytes *texts, int count)
-{
-    *e = (struct edited){.files = {.keep = true}};
-    assert_int_equal(reader_document_create(&e->document), READER_OK);
-    for (int i = 0; i < count; i++)
-        if (reader_files_add(&e->files, e->document, i ? "two.md" : "one.md", texts[i].text,
-                             texts[i].bytes) != READER_OK)
-            fail_msg("%s", reader_error());
-    assert_int_equal(reader_document_refer(e->document), READER_OK);
-    assert_int_equal(reader_document_plain(e->document), READER_OK);
-}
-
-static void edited_begin(struct edited *e, const char *one, const char *two)
-{
-    const struct reader_bytes texts[] = {{(char *)(uintptr_t)one, strlen(one)},
-                                         {(char *)(uintptr_t)two, two ? strlen(two) : 0}};
-    document_read(e, texts, two ? 2 : 1);
-    assert_int_equal(reader_edit_create(&e->document, &e->files, NULL, &e->edit), READER_OK);
-}
-
-static void edited_end(struct edited *e)
-{
-    reader_edit_destroy(e->edit);
-    reader_remarks_close(e->remarks);
-    reader_document_destroy(e->document);
-    reader_files_finish(&e->files);
-}
-
-/* ---- the slow twin ---- */
-
-static void blocks_same(const struct reader_block *a, const struct reader_block *b, int count)
-{
-    for (int i = 0; i < count; i++) {
-        assert_int_equal(a[i].kind, b[i].kind);
-        assert_string_equal(a[i].text, b[i].text);
-        assert_int_equal(a[i].bytes, b[i].bytes);
-        assert_int_equal(a[i].at, b[i].at);
-        assert_int_equal(a[i].source, b[i].source);
-        assert_int_equal(a[i].first_line, b[i].first_line);
-        assert_int_equal(a[i].last_line, b[i].last_line);
-        assert_int_equal(a[i].items, b[i].items);
-        assert_int_equal(a[i].quotes, b[i].quotes);
-        assert_int_equal(a[i].level, b[i].level);
-        assert_int_equal(a[i].number, b[i].number);
-        assert_int_equal(a[i].continues, b[i].continues);
-        assert_string_equal(a[i].marker ? a[i].marker : "", b[i].marker ? b[i].marker : "");
-        assert_string_equal(a[i].target ? a[i].target : "", b[i].target ? b[i].target : "");
-        assert_int_equal(a[i].head, b[i].head);
-        assert_int_equal(a[i].columns, b[i].columns);
-        if (a[i].kind == READER_ROW) {
-            assert_int_equal(a[i].table, b[i].table);
-            assert_memory_equal(a[i].aligns, b[i].aligns, sizeof a[i].aligns);
-        }
-        assert_int_equal(a[i].spans_count, b[i].spans_count);
-        for (int k = 0; k < a[i].spans_count; k++) {
-            const struct reader_span *s = &a[i].spans[k], *t = &b[i].spans[k];
-            assert_int_equal(s->begin, t->begin);
-            assert_int_equal(s->end, t->end);
-            assert_int_equal(s->look, t->look);
-            assert_int_equal(s->note, t->note);
-            assert_string_equal(s->target ? s->target : "", t->target ? t->target : "");
-        }
-    }
-}
-
-static void as_from_scratch(const struct edited *e)
-{
-    struct edited twin;
-    document_read(&twin, e->files.texts, e->files.count);
-    assert_int_equal(e->document->plain_bytes, twin.document->plain_bytes);
-    assert_string_equal(e->document->plain, twin.document->plain);
-    assert_int_equal(e->document->blocks_count, twin.document->blocks_count);
-    assert_int_equal(e->document->note_blocks_count, twin.document->note_blocks_count);
-    blocks_same(e->document->blocks, twin.document->blocks, e->document->blocks_count);
-    blocks_same(e->document->note_blocks, twin.document->note_blocks,
-                e->document->note_blocks_count);
-    assert_int_equal(e->document->tables_count, twin.document->tables_count);
-    assert_int_equal(e->document->labels_count, twin.document->labels_count);
-    for (int i = 0; i < twin.document->labels_count; i++) {
-        const struct reader_label *l = &e->document->labels[i], *m = &twin.document->labels[i];
-        assert_string_equal(l->name, m->name);
-        assert_int_equal(l->source, m->source);
-        assert_int_equal(l->block, m->block);
-        assert_int_equal(l->first, m->first);
-    }
-    assert_int_equal(e->document->lost_count, twin.document->lost_count);
-    for (int i = 0; i < twin.document->lost_count; i++)
-        assert_int_equal(e->document->lost[i].line, twin.document->lost[i].line);
-    edited_end(&twin);
-}
-
 /* ---- single edits ---- */
-
-/* The first place of `at`, with | where the caret is. */
-static size_t caret_at(const struct edited *e, const char *at)
-{
-    const char *bar = strchr(at, '|');
-    char words[200];
-    snprintf(words, sizeof words, "%.*s%s", (int)(bar - at), at, bar + 1);
-    const char *found = strstr(e->document->plain, words);
-    assert_non_null(found);
-    return (size_t)(found - e->document->plain) + (size_t)(bar - at);
-}
 
 /* Puts letters in there; returns the source. */
 static const char *edit_at(struct edited *e, const char *at, const char *type, int back)
@@ -249,8 +140,28 @@ static void touched_blocks_are_read_alone(void **state)
         {"# Bibliography\n\n- zc\n- za\n", "za|", false},
         {"- one\n\n```\ncode\n```\n", "on|e", true},
         {"- one\n\n      code\n\ntext\n", "on|e", true},
-        {"```\n- one\n\n- two\n```\n", "on|e", false},
-        {"A[^n]\n\n[^n]: - one\n\n    - two\n", "tw|o", false},
+        {"```\n- one\n\n- two\n```\n", "on|e", true},
+        {"A\n\n```c\nint a;\n\n$b `c`\n```\nB\n", "int| a", true},
+        {"```\none\ntwo\n```\n", "on|e\ntwo", true},
+        {"A\n```\none\n```\n", "on|e", false}, /* formulas may go over its fences */
+        {"- A\n\n  ```\n  one\n  ```\n", "on|e", false},
+        {"````\n```\none\n```\n````\n", "on|e", false},
+        {"    ```\n\n```\n$one$\n```\n\n$a$\n", "on|e", false}, /* no fence to formulas */
+        {"~~~ lua live\none()\n~~~\n", "on|e", true},
+        {"```math\nx_1\n```\n", "x_|1", true},
+        {"A $x^2$ b.\n", "A |$", true},
+        {"A\n\n$$x^2$$\n\nB\n", "x|^2", true},
+        {"A\n```\n$b\n```\n\nC $d$\n", "C |$", true},
+        {"A[^n]\n\n[^n]: - one\n\n    - two\n", "tw|o", true},
+        {"A[^n] b[^m].\n\n[^m]: One.\n[^n]: Two *three*,\nfour.\n\n    Five.\n", "Tw|o", true},
+        {"A[^n] b[^m].\n\n[^m]: One.\n[^n]: Two *three*,\nfour.\n\n    Five.\n", "Fiv|e", true},
+        {"A[^n] b[^m].\n\n[^m]: One.\n[^n]: Two.\n", "On|e", true},
+        {"A[^n].\n\n[^n]: Two [three](a.md).\n", "Tw|o", true},
+        {"A[^n].\n\n[^n]: Two [r].\n\n[r]: a.md\n", "Tw|o", false},
+        {"A[^n].\n\n[^n]: Two[^margin:m].\n\n[^margin:m]: Three.\n", "Tw|o", true},
+        {"A[^n].\n\nB[^m] c[^n].\n\n[^n]: N.\n[^m]: M.\n", "B|2", true},
+        {"A[^n].\n\nB[^N].\n\n[^n]: N.\n", "B|1", false}, /* a name of other letters */
+        {"A[^n].\n\n[^n]: costs $5\n[^m]: and $6\n", "co|sts", false},
         {"<!--\n\n- no\n\n-->\n\n- one\n", "on|e", true},
     };
     (void)state;
@@ -300,6 +211,12 @@ static const char *const pieces[] = {
     "> A quote\n> that goes on\nlazily\n\n",
     "> - an item\n>\n>   in a quote\n\n",
     "```c\nint main(void)\n{\n    return 0;\n}\n```\n\n",
+    "~~~sh\necho $HOME `date` ~\n\n- no\n~~~\nbehind\n\n",
+    "```lua live\nfunction draw() return nil end\n```\n\n",
+    "```math\n\\frac{a}{b}\n```\n\n",
+    "1. in\n\n   ```\n   code\n   ```\n\n",
+    "$$\nE = m c^2\n$$\n\n",
+    "Again[^n], $z$, [^m] and [^o].\n\n[^o]: Third, $5, with `code`\nlazily.\n\n",
     "    indented code\n    goes on\n\n",
     "| a | b |\n|---|:-:|\n| c *d* | e |\n| f \\| g | |\n\n",
     "A note[^n] and [^m].\n\n[^n]: It *says* this.\n[^margin:m]: And that.\n\n    More of "
