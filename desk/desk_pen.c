@@ -155,8 +155,8 @@ static bool is_near(const struct report *report, double x_px, double y_px)
     return fabs(report->x_px - x_px) <= NEAR_PX && fabs(report->y_px - y_px) <= NEAR_PX;
 }
 
-/* A pen's report at r's time, as near as there is one; of several at that time the one from this
- * place of the surface, in pixels of the screen. False: no pen has spoken. */
+/* A pen's report at r's time, as near as there is one; of several at that time the one from
+ * this place of the surface, in pixels of the screen. False: no pen has spoken. */
 static bool report_at(const struct desk_pen *pen, double x_px, double y_px,
                       struct desk_report *r)
 {

@@ -1,8 +1,8 @@
 /* edit_block.c - one block that is edited, set in place of the one that it was: see
  * edit_internal.h.
  *
- * The lines around it are read alone, as they were and as they become (edit_alone.c). Where what
- * was read alone is not what the document has, or more than one block becomes another, all
+ * The lines around it are read alone, as they were and as they become (edit_alone.c). Where
+ * what was read alone is not what the document has, or more than one block becomes another, all
  * files are read again. */
 #include "builder.h"
 #include "edit_internal.h"

@@ -80,8 +80,8 @@ void edit_alone_finish(struct edit_alone *alone);
 int edit_note_of(const struct reader_document *d, int source, const struct reader_note *note);
 
 /* The block that the splice is in, read with the lines around it alone, in place. *done: it
- * was; else others have to do with it. Errors: BAD_ARGUMENT: whatever is read, it is not what is
- * meant; NO_MEMORY. */
+ * was; else others have to do with it. Errors: BAD_ARGUMENT: whatever is read, it is not what
+ * is meant; NO_MEMORY. */
 enum reader_status edit_block_try(struct reader_document *d, struct reader_files *files,
                                   const struct edit_splice *splice,
                                   const struct edit_meant *meant,

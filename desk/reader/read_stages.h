@@ -1,5 +1,5 @@
-/* read_stages.h - demonstrations in the page, shared by the files that run them (read_stages.c),
- * draw them (read_stages_draw.c) and hand them input (read_stages_hand.c). */
+/* read_stages.h - demonstrations in the page, shared by the files that run them
+ * (read_stages.c), draw them (read_stages_draw.c) and hand them input (read_stages_hand.c). */
 #ifndef LUTETIA_READ_STAGES_H
 #define LUTETIA_READ_STAGES_H
 
