@@ -18,8 +18,8 @@
  * So a step in boxes gives the same bits as one of the whole sheet. The boxes are good for as
  * many steps as what is active is away from their sides; then they are looked at again, and cut
  * anew where it has come too near or has shrunk. Whoever changes the sheet closes them. Where
- * more than a half would lie in boxes there are none, and the sheet is looked at again some
- * steps later. */
+ * more than three quarters would lie in boxes there are none, and the sheet is looked at again
+ * some steps later. */
 #include "model/boxes_parts.h"
 
 #include <limits.h>
@@ -113,7 +113,7 @@ static void active_read(struct paper_sheet *p, uint8_t *active)
  * large. */
 static int steps_ahead(const struct paper_sheet *p)
 {
-    const int reach = spread_in_a_step(p), most = p->boxes_unit / 2,
+    const int reach = spread_in_a_step(p), most = p->boxes_unit / 3,
               far = 3 * most / reach > 1 ? 3 * most / reach : 1;
     return far < most ? far : most;
 }
@@ -229,6 +229,22 @@ static enum paper_status boxes_open(struct paper_sheet *p, const struct box *box
     return paper_leave(&p->page);
 }
 
+/* Fibers that will be touched are active, too. They need no margin until they are: only what is
+ * so far within them is marked that the margin around it covers the rest for one step. */
+static void expected_mark(const struct paper_sheet *p, const struct boxes_wish *wish,
+                          uint8_t *active)
+{
+    const struct box *e = &p->boxes->expected;
+    const int within = wish->margin - rest_of(p) - spread_in_a_step(p),
+              side_x = within < (e->width - 1) / 2 ? within : (e->width - 1) / 2,
+              side_y = within < (e->height - 1) / 2 ? within : (e->height - 1) / 2;
+    if (e->width == 0)
+        return;
+    for (int y = e->y + side_y; y < e->y + e->height - side_y; y++)
+        memset(active + (size_t)y * (size_t)wish->width + e->x + side_x, 1,
+               (size_t)(e->width - 2 * side_x));
+}
+
 /* Looks where it is wet, and cuts boxes if that is worth it. */
 static enum paper_status boxes_cut(struct paper_sheet *p)
 {
@@ -246,9 +262,8 @@ static enum paper_status boxes_cut(struct paper_sheet *p)
     else
         active_read(p, active);
     enum paper_status status = paper_leave(&p->page);
+    expected_mark(p, &wish, active);
     const struct box *e = &b->expected;
-    for (int y = e->y; y < e->y + e->height; y++)
-        memset(active + (size_t)y * (size_t)wish.width + e->x, 1, (size_t)e->width);
     const int count = boxes_find(&wish, active, boxes);
     free(active);
     if (status != PAPER_OK)

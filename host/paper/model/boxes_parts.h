@@ -9,7 +9,7 @@ enum {
     PARTS_MOST = 2 * BOXES_MOST,
     WAIT_LEAST = 24 /* steps until a sheet that had no boxes is looked at again */
 };
-#define SHARE_MOST 0.5 /* of the sheet, in boxes */
+#define SHARE_MOST 0.75 /* of the sheet, in boxes */
 
 /* A box on the machine. Of the sheet it has what a step needs. */
 struct part {

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { AHEAD_UNITS = 2 };
+enum { AHEAD_UNITS = 2 }; /* where it goes; half of them around where it begins */
 
 struct sheet_growing {
     struct paper_stroke stroke;
@@ -63,12 +63,13 @@ static enum paper_status expect(struct paper_sheet *p, struct sheet_growing *g, 
     for (int i = first; i < g->stroke.samples_count; i++) {
         const double at[2] = {g->samples[i].x, g->samples[i].y};
         for (int axis = 0; axis < 2; axis++) {
+            const double far = i == 0 ? ahead / 2 : ahead;
             if (at[axis] - around < g->low[axis]) {
-                g->low[axis] = fmax(-most, at[axis] - around - ahead);
+                g->low[axis] = fmax(-most, at[axis] - around - far);
                 more = true;
             }
             if (at[axis] + around > g->high[axis]) {
-                g->high[axis] = fmin(2 * most, at[axis] + around + ahead);
+                g->high[axis] = fmin(2 * most, at[axis] + around + far);
                 more = true;
             }
         }
