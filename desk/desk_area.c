@@ -1,9 +1,11 @@
 /* desk_area.c - see desk_area.h.
  *
- *     framebuffer -> what has changed, read back -> pixels -> tiles that it touches -> textures
+ *     framebuffer -> what has changed, read back -> pixels -> tiles that it touches -> nodes
  *
  * Tiles have whole pixels of the screen and are neither scaled nor turned, so there are no
- * seams between them. */
+ * seams between them. A tile is a node of cairo's, which copies its pixels; GTK 4.8 would take
+ * a texture's through floats, which cost as much as drawing. A tile that has not changed stays
+ * the same node: GTK draws it again only where something else has changed above it. */
 #include "desk_area.h"
 
 #include <epoxy/gl.h>
@@ -18,7 +20,8 @@ struct _DeskArea {
     GLuint framebuffer, colors;
     int width, height, columns, rows; /* pixels; tiles */
     uint8_t *pixels, *read;           /* from the top; what was read, from the bottom */
-    GdkTexture **tiles;
+    int scale;
+    GskRenderNode **tiles;
 };
 
 #define DESK_TYPE_AREA desk_area_get_type()
@@ -57,7 +60,7 @@ void desk_area_renderer_choose(GdkDisplay *display)
 static void tiles_free(DeskArea *a)
 {
     for (int i = 0; i < a->columns * a->rows; i++)
-        g_clear_object(&a->tiles[i]);
+        g_clear_pointer(&a->tiles[i], gsk_render_node_unref);
     g_clear_pointer(&a->tiles, g_free);
     g_clear_pointer(&a->pixels, g_free);
     g_clear_pointer(&a->read, g_free);
@@ -73,16 +76,17 @@ static void framebuffer_free(DeskArea *a)
     a->framebuffer = a->colors = 0;
 }
 
-static void size_set(DeskArea *a, int width, int height)
+static void size_set(DeskArea *a, int width, int height, int scale)
 {
     const size_t bytes = BYTES * (size_t)width * (size_t)height;
     tiles_free(a);
     framebuffer_free(a);
     a->width = width;
     a->height = height;
+    a->scale = scale;
     a->columns = (width + TILE - 1) / TILE;
     a->rows = (height + TILE - 1) / TILE;
-    a->tiles = g_new0(GdkTexture *, (gsize)(a->columns * a->rows));
+    a->tiles = g_new0(GskRenderNode *, (gsize)(a->columns * a->rows));
     a->pixels = g_malloc(bytes);
     a->read = g_malloc(bytes);
     glGenFramebuffers(1, &a->framebuffer);
@@ -94,23 +98,56 @@ static void size_set(DeskArea *a, int width, int height)
     g_signal_emit_by_name(a, "resize", width, height);
 }
 
+static graphene_rect_t tile_bounds(const DeskArea *a, int column, int row)
+{
+    const int x = column * TILE, y = row * TILE;
+    const float scale = (float)a->scale;
+    return (graphene_rect_t){
+        {(float)x / scale, (float)y / scale},
+        {(float)MIN(TILE, a->width - x) / scale, (float)MIN(TILE, a->height - y) / scale}};
+}
+
+/* Its pixels are copied: the node may be drawn after they have changed. */
 static void tile_make(DeskArea *a, int column, int row)
 {
     const int x = column * TILE, y = row * TILE, width = MIN(TILE, a->width - x),
               height = MIN(TILE, a->height - y);
-    const size_t stride = BYTES * (size_t)width;
-    uint8_t *copy = g_malloc(stride * (size_t)height);
-    for (int i = 0; i < height; i++)
+    const graphene_rect_t bounds = tile_bounds(a, column, row);
+    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+    uint8_t *copy = cairo_image_surface_get_data(image);
+    const size_t stride = (size_t)cairo_image_surface_get_stride(image);
+    for (int i = 0; copy && i < height; i++)
         memcpy(copy + (size_t)i * stride,
-               a->pixels + BYTES * ((size_t)(y + i) * (size_t)a->width + (size_t)x), stride);
-    GBytes *bytes = g_bytes_new_take(copy, stride * (size_t)height);
-    GdkTexture **tile = &a->tiles[row * a->columns + column];
-    g_clear_object(tile);
-    *tile = gdk_memory_texture_new(width, height,
-                                   epoxy_is_desktop_gl() ? GDK_MEMORY_B8G8R8A8_PREMULTIPLIED
-                                                         : GDK_MEMORY_R8G8B8A8_PREMULTIPLIED,
-                                   bytes, stride);
-    g_bytes_unref(bytes);
+               a->pixels + BYTES * ((size_t)(y + i) * (size_t)a->width + (size_t)x),
+               BYTES * (size_t)width);
+    cairo_surface_mark_dirty(image);
+    cairo_surface_set_device_scale(image, a->scale, a->scale);
+    GskRenderNode **tile = &a->tiles[row * a->columns + column];
+    g_clear_pointer(tile, gsk_render_node_unref);
+    *tile = gsk_cairo_node_new(&bounds);
+    cairo_t *cairo = gsk_cairo_node_get_draw_context(*tile);
+    cairo_set_operator(cairo, CAIRO_OPERATOR_SOURCE);
+    cairo_set_source_surface(cairo, image, bounds.origin.x, bounds.origin.y);
+    cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+    cairo_rectangle(cairo, bounds.origin.x, bounds.origin.y, bounds.size.width,
+                    bounds.size.height);
+    cairo_fill(cairo);
+    cairo_destroy(cairo);
+    cairo_surface_destroy(image);
+}
+
+/* A row of pixels as cairo has them: b, g, r, and a byte that nobody looks at. */
+static void row_take(uint8_t *to, const uint8_t *from, int width, bool blue_first)
+{
+    if (blue_first) {
+        memcpy(to, from, BYTES * (size_t)width);
+        return;
+    }
+    for (int i = 0; i < width; i++, to += BYTES, from += BYTES) {
+        to[0] = from[2];
+        to[1] = from[1];
+        to[2] = from[0];
+    }
 }
 
 /* What has been drawn comes into the tiles that it touches. */
@@ -118,12 +155,14 @@ static void take(DeskArea *a, const struct studio_rectangle *r)
 {
     const int width = r->right - r->left, height = r->bottom - r->top;
     const size_t stride = BYTES * (size_t)width;
+    const bool blue_first = epoxy_is_desktop_gl();
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glReadPixels(r->left, a->height - r->bottom, width, height,
-                 epoxy_is_desktop_gl() ? GL_BGRA : GL_RGBA, GL_UNSIGNED_BYTE, a->read);
+    glReadPixels(r->left, a->height - r->bottom, width, height, blue_first ? GL_BGRA : GL_RGBA,
+                 GL_UNSIGNED_BYTE, a->read);
     for (int i = 0; i < height; i++)
-        memcpy(a->pixels + BYTES * ((size_t)(r->top + i) * (size_t)a->width + (size_t)r->left),
-               a->read + (size_t)(height - 1 - i) * stride, stride);
+        row_take(a->pixels +
+                     BYTES * ((size_t)(r->top + i) * (size_t)a->width + (size_t)r->left),
+                 a->read + (size_t)(height - 1 - i) * stride, width, blue_first);
     for (int row = r->top / TILE; row * TILE < r->bottom; row++)
         for (int column = r->left / TILE; column * TILE < r->right; column++)
             tile_make(a, column, row);
@@ -131,16 +170,11 @@ static void take(DeskArea *a, const struct studio_rectangle *r)
 
 /* ---- the widget ---- */
 
-static void tiles_snapshot(const DeskArea *a, GtkSnapshot *snapshot, int scale)
+static void tiles_snapshot(const DeskArea *a, GtkSnapshot *snapshot)
 {
-    for (int i = 0; i < a->columns * a->rows; i++) {
-        const int x = i % a->columns * TILE, y = i / a->columns * TILE;
-        const graphene_rect_t bounds = {{(float)x / (float)scale, (float)y / (float)scale},
-                                        {(float)MIN(TILE, a->width - x) / (float)scale,
-                                         (float)MIN(TILE, a->height - y) / (float)scale}};
+    for (int i = 0; i < a->columns * a->rows; i++)
         if (a->tiles[i])
-            gtk_snapshot_append_texture(snapshot, a->tiles[i], &bounds);
-    }
+            gtk_snapshot_append_node(snapshot, a->tiles[i]);
 }
 
 static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
@@ -159,8 +193,8 @@ static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
     if (width <= 0 || height <= 0)
         return;
     gtk_gl_area_make_current(area);
-    if (width != a->width || height != a->height) {
-        size_set(a, width, height);
+    if (width != a->width || height != a->height || scale != a->scale) {
+        size_set(a, width, height, scale);
         drawn = (struct studio_rectangle){0, 0, width, height};
     }
     glBindFramebuffer(GL_FRAMEBUFFER, a->framebuffer);
@@ -168,7 +202,7 @@ static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
     a->draw(a->context, scale, &drawn);
     if (drawn.right > drawn.left && drawn.bottom > drawn.top)
         take(a, &drawn);
-    tiles_snapshot(a, snapshot, scale);
+    tiles_snapshot(a, snapshot);
 }
 
 static gboolean area_render(GtkGLArea *area, GdkGLContext *context)
