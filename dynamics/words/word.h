@@ -98,6 +98,9 @@ extern const int dyn_presets_count;
  * lists the names. */
 enum dyn_status dyn_preset_apply(const char *name, struct dyn_word_style *style,
                                  struct dyn_world *world);
+/* A preset that breaks, for lines of so many letters at most: its links bear a line of fewer
+ * letters than nine, so they are weaker there. Others stay as they are. */
+void dyn_preset_fit(const char *name, int letters, struct dyn_word_style *style);
 /* False, too, where there is no preset of that name. */
 bool dyn_preset_collides(const char *name);
 
