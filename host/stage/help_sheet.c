@@ -4,7 +4,7 @@
 #include <math.h>
 
 enum { COLUMNS_MAX = 3 };
-static const double column_texts = 36, name_texts = 13, line_texts = 1.6, margin_texts = 1.5;
+static const double column_texts = 38, name_texts = 15.5, line_texts = 1.6, margin_texts = 1.5;
 
 /* As few columns as make it fit, else as many as there is room for, in a smaller text if there
  * is none for one. */

@@ -11,6 +11,7 @@
 #include <exact.h>
 #include <keys_actor.h>
 #include <live_player.h>
+#include <stage_window.h>
 
 #include "../display/scratch.h"
 
@@ -387,6 +388,70 @@ static void what_maps_do_wrong_is_told(void **unused)
     stage_destroy(stage);
 }
 
+/* ---- the help ---- */
+
+/* From where to where the glyphs of a row's half stand; the other half is empty. */
+static void half_ends(struct stage_panel *panel, const struct stage *stage, const char *name,
+                      const char *does, double *from, double *to)
+{
+    const struct help_row row = {name, does};
+    struct help_sheet sheet = {.shown = true};
+    struct stage_draw_list list = {0};
+    stage_draw_begin(&list, STAGE_VIEW_PIXELS);
+    help_sheet_draw(&sheet, &row, 1, panel, stage_theme(stage), 900, 600, 1, &list);
+    *from = 900;
+    *to = 0;
+    for (int i = 0; i < list.count; i++)
+        if (list.items[i].kind == STAGE_DRAW_GLYPH) {
+            const struct stage_glyph *g = &list.items[i].glyph;
+            *from = fmin(*from, g->x_px);
+            *to = fmax(*to, g->x_px + 0.6 * g->size_px);
+        }
+    assert_true(*to < sheet.box.x1);
+    stage_draw_finish(&list);
+}
+
+/* No key's name runs into what it does. */
+static void help_names_have_room(void **state)
+{
+    (void)state;
+    struct stage *stage = keys_stage(keys_actor_def_default());
+    const char *knobs = scratch_path("help.knobs"), *cues = scratch_path("help.cues"), *does;
+    struct live_source *source;
+    struct live_player *player;
+    struct stage_panel *panel;
+    int count;
+    FILE *file = fopen(cues, "w");
+    assert_non_null(file);
+    fputs("go set size=0.5\n", file);
+    fclose(file);
+    struct midi_song *song = song_of(played, played_ms, 6);
+    assert_int_equal(live_source_open(&(struct live_source_def){.song = song}, &source),
+                     MIDI_OK);
+    const struct live_player_def def = {
+        .source = source, .knobs = &knobs, .knobs_count = 1, .cues = cues, .tell = tell};
+    assert_int_equal(live_player_create(&def, stage, &player), STAGE_OK);
+    assert_int_equal(stage_panel_create("DejaVuSans", &panel), STAGE_OK);
+    const struct help_row *rows = live_player_keys(player, &count);
+    assert_in_range(count, 7, STAGE_WINDOW_KEYS_MAX);
+    for (int i = 0; i < 100; i++) {
+        const char *name = i < count ? rows[i].name : stage_window_key(i - count, &does);
+        double from[2], to[2];
+        if (!name)
+            break;
+        does = i < count ? rows[i].does : does;
+        half_ends(panel, stage, name, "", &from[0], &to[0]);
+        half_ends(panel, stage, "", does, &from[1], &to[1]);
+        if (to[0] > from[1])
+            fail_msg("%s runs into: %s", name, does);
+    }
+    stage_panel_destroy(panel);
+    live_player_destroy(player);
+    stage_destroy(stage);
+    live_source_close(source);
+    midi_song_destroy(song);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -397,6 +462,7 @@ int main(void)
         cmocka_unit_test(cues_wait_for_a_key),
         cmocka_unit_test(maps_set_controls),
         cmocka_unit_test(what_maps_do_wrong_is_told),
+        cmocka_unit_test(help_names_have_room),
     };
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK)
         return 1;
