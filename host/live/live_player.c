@@ -357,6 +357,8 @@ enum stage_status live_player_create(const struct live_player_def *def, struct s
         status = map_open(p);
         p->def.tell = told;
     }
+    if (status == STAGE_OK && !p->actor.kind->play && !(p->map && script_map_hears(p->map)))
+        live_source_no_computer(def->source);
     if (status == STAGE_OK)
         status = knobs_begin(p);
     if (status == STAGE_OK)

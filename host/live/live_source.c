@@ -70,6 +70,11 @@ bool live_source_by_computer(const struct live_source *s)
     return s->computer;
 }
 
+void live_source_no_computer(struct live_source *s)
+{
+    s->computer = false;
+}
+
 static bool wait_put(struct live_source *s, const struct midi_message *m)
 {
     if (s->waiting_count == WAITING_MAX)

@@ -38,6 +38,8 @@ void live_source_close(struct live_source *source); /* NULL is fine */
 
 /* The computer's keyboard plays. */
 bool live_source_by_computer(const struct live_source *source);
+/* There is nobody for what it would play: it does not. */
+void live_source_no_computer(struct live_source *source);
 /* A key of the window's, or that it lost the keyboard. True: it was played. */
 bool live_source_key(struct live_source *source, const struct input_event *event);
 

@@ -24,7 +24,7 @@ struct script_map {
     struct script_map_def def;
     lua_State *L;
     struct midi_fine fine;
-    bool frames, hears_osc; /* there is a function `frame`, and `osc` */
+    bool frames, hears, hears_osc; /* there is a function `frame`, `message`, `osc` */
 };
 
 static struct script_map *map_of(lua_State *L)
@@ -177,6 +177,7 @@ static int open_protected(lua_State *L)
     map->frames = lua_getglobal(L, "frame") == LUA_TFUNCTION;
     map->hears_osc = lua_getglobal(L, "osc") == LUA_TFUNCTION;
     const int message = lua_getglobal(L, "message");
+    map->hears = message == LUA_TFUNCTION;
     if (message != LUA_TFUNCTION && (message != LUA_TNIL || !(map->frames || map->hears_osc)))
         luaL_error(L, "%s: a map has a function message(m), osc(address, ...) or frame(time)",
                    map->config.path);
@@ -222,6 +223,11 @@ bool script_map_message(struct script_map *map, const struct midi_message *m)
     struct message_call call = {.message = *m};
     call.is_fine = midi_fine_take(&map->fine, m, &call.fine);
     return answer(map, message_protected, &call);
+}
+
+bool script_map_hears(const struct script_map *map)
+{
+    return map->hears;
 }
 
 bool script_map_hears_osc(const struct script_map *map)

@@ -59,6 +59,8 @@ void script_map_close(struct script_map *map); /* NULL is fine */
 bool script_map_message(struct script_map *map, const struct midi_message *m);
 /* It leads by time alone: it has a function `frame`. */
 bool script_map_leads(const struct script_map *map);
+/* Whether it has message(m): else nobody need play for it. */
+bool script_map_hears(const struct script_map *map);
 /* A message with an address, for the script's function osc(address, ...), where it has one.
  * False: it failed, which has been told, or has none. */
 bool script_map_hears_osc(const struct script_map *map);

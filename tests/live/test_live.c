@@ -11,6 +11,7 @@
 #include <exact.h>
 #include <keys_actor.h>
 #include <live_player.h>
+#include <springs.h>
 #include <stage_window.h>
 
 #include "../display/scratch.h"
@@ -388,6 +389,50 @@ static void what_maps_do_wrong_is_told(void **unused)
     stage_destroy(stage);
 }
 
+/* ---- who hears notes ---- */
+
+static struct stage *springs_stage(void)
+{
+    struct stage_springs_def springs = stage_springs_def_default();
+    struct stage_def def = stage_def_default();
+    struct stage *stage;
+    assert_int_equal(dyn_network_create(&springs.network), DYN_OK);
+    assert_int_equal(stage_springs_create(&springs, &def.actor), STAGE_OK);
+    assert_int_equal(stage_create(&def, &stage), STAGE_OK);
+    return stage;
+}
+
+/* Where nobody hears notes, the letters of the keyboard are the window's own keys. */
+static void the_computer_plays_for_who_hears(void **state)
+{
+    (void)state;
+    static const struct {
+        bool keys;
+        const char *map;
+        bool plays;
+    } rows[] = {{false, "function frame(time) end", false},
+                {false, "function osc(address) end", false},
+                {false, "function message(m) end", true},
+                {true, "function frame(time) end", true}};
+    setenv("XDG_RUNTIME_DIR", scratch_path("none"), 1); /* no server's */
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct stage *stage =
+            rows[i].keys ? keys_stage(keys_actor_def_default()) : springs_stage();
+        struct live_source *source;
+        assert_int_equal(live_source_open(&(struct live_source_def){.lowest = 48}, &source),
+                         MIDI_OK);
+        struct live_player *player = player_of(stage, source, rows[i].map);
+        assert_non_null(player);
+        const struct input_event v = {.kind = INPUT_KEY_DOWN, .key = 'V'};
+        assert_int_equal(live_source_by_computer(source), rows[i].plays);
+        assert_int_equal(live_player_key(player, &v), rows[i].plays);
+        live_player_destroy(player);
+        live_source_close(source);
+        stage_destroy(stage);
+    }
+    unsetenv("XDG_RUNTIME_DIR");
+}
+
 /* ---- the help ---- */
 
 /* From where to where the glyphs of a row's half stand; the other half is empty. */
@@ -462,6 +507,7 @@ int main(void)
         cmocka_unit_test(cues_wait_for_a_key),
         cmocka_unit_test(maps_set_controls),
         cmocka_unit_test(what_maps_do_wrong_is_told),
+        cmocka_unit_test(the_computer_plays_for_who_hears),
         cmocka_unit_test(help_names_have_room),
     };
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK)
