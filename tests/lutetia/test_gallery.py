@@ -71,6 +71,17 @@ def repeats():
         os.remove(os.path.join(folder, name))
 
 
+def breakdowns():
+    """The preset breaks words of any length from three letters on, into pieces; not where other links are asked for."""
+    for word, more, least, most in [(w, [], 2, 16) for w in (
+            "cry", "iii", "mmm", "word", "iiii", "hello", "Zürich", "falling", "collapse", "breakdown", "an end of all things",
+            "two words\nor three", "a word that goes on and on until nobody can say it")] + [("cry", ["--set", "link=210"], 0, 0)]:
+        still("b.png", "spring", word, "--preset", "breakdown", "--seconds", "10", "--save", "b.springs", *more)
+        with open(os.path.join(folder, "b.springs"), encoding="utf-8") as file:
+            broken = sum(line.startswith("spring ") and line.endswith(" broken\n") for line in file)
+        must(least <= broken <= most, f"{word!r}: {broken} springs are broken")
+
+
 def refused(text, says):
     with open(os.path.join(folder, "piece.lua"), "w", encoding="utf-8") as file:
         file.write(text)
@@ -123,5 +134,6 @@ def damaged():
 gallery()
 windows()
 repeats()
+breakdowns()
 strangers()
 damaged()

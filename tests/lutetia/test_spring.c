@@ -305,50 +305,6 @@ static void presets_are_for_any_word(void **state)
     assert_int_equal(strcspn(row + 9, "n") - strcspn(row + 9, "o"), 1); /* "on" */
 }
 
-/* How many lines of a network say that a spring is broken. */
-static int broken_count(const char *path)
-{
-    char line[400];
-    int count = 0;
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    while (fgets(line, sizeof line, file))
-        count += strstr(line, " broken") != NULL;
-    fclose(file);
-    return count;
-}
-
-/* From three letters on; into pieces, not into letters alone. */
-static void breakdown_breaks_words_of_any_length(void **state)
-{
-    (void)state;
-    static const char *const words[] = {"cry",
-                                        "iii",
-                                        "word",
-                                        "mmmm",
-                                        "hello",
-                                        "iiiii",
-                                        "Z\xc3\xbcrich",
-                                        "falling",
-                                        "collapse",
-                                        "breakdown",
-                                        "an end of all things",
-                                        "two words\nor three",
-                                        "a word that goes on and on until nobody can say it"};
-    char save[300];
-    snprintf(save, sizeof save, "%s", scratch_path("broken.springs"));
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        RUN(0, words[i], "--preset", "breakdown", "--seconds", "10", "--save", save, "--still",
-            scratch_path("broken.png"), "--size", "32x32");
-        const int broken = broken_count(save);
-        if (broken < 2 || broken > 16)
-            fail_msg("%s: %d springs are broken", words[i], broken);
-    }
-    RUN(0, "cry", "--preset", "breakdown", "--set", "link=210", "--seconds", "10", "--save",
-        save, "--still", scratch_path("broken.png"), "--size", "32x32");
-    assert_int_equal(broken_count(save), 0); /* which was asked for */
-}
-
 /* Counts the blue pixels, ink on paper, in rows y0 to y1. */
 static int blue_count(const struct display_image *image, int y0, int y1)
 {
@@ -611,7 +567,6 @@ int main(void)
         cmocka_unit_test(lacking_glyphs_are_named),
         cmocka_unit_test(what_is_wrong_is_said_in_a_line),
         cmocka_unit_test(without_egl_osmesa_draws),
-        cmocka_unit_test(breakdown_breaks_words_of_any_length),
         cmocka_unit_test(films_are_interrupted),
     };
     lutetia = getenv("LUTETIA");
