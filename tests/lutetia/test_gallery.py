@@ -76,10 +76,12 @@ def breakdowns():
     for word, more, least, most in [(w, [], 2, 16) for w in (
             "cry", "iii", "mmm", "word", "iiii", "hello", "Zürich", "falling", "collapse", "breakdown", "an end of all things",
             "two words\nor three", "a word that goes on and on until nobody can say it")] + [("cry", ["--set", "link=210"], 0, 0)]:
-        still("b.png", "spring", word, "--preset", "breakdown", "--seconds", "10", "--save", "b.springs", *more, look=["--size", "32x32"])
+        still("w.png", "spring", word, "--preset", "breakdown", "--seconds", "10", "--save", "b.springs", *more, look=["--size", "32x32"])
         with open(os.path.join(folder, "b.springs"), encoding="utf-8") as file:
             broken = sum(line.startswith("spring ") and line.endswith(" broken\n") for line in file)
         must(least <= broken <= most, f"{word!r}: {broken} springs are broken")
+    for name in ("w.png", "b.springs"):
+        os.remove(os.path.join(folder, name))
 
 
 def refused(text, says):
