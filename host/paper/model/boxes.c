@@ -52,7 +52,16 @@ static int rest_of(const struct paper_sheet *p)
     return salt > REST_LEAST ? salt : REST_LEAST;
 }
 
-/* mask = 1 where a fiber is not at rest. All that is added is 0 or more. Uses t[0..2]. */
+static void mask_where(struct paper_sheet *p, CM_field_id_t d, unsigned why)
+{
+    CM_f_gt_constant_1L(d, 0.0, KIT_F);
+    CM_logand_context_with_test();
+    CM_u_move_constant_1L(p->mask, why, 8);
+    CM_set_context();
+}
+
+/* mask = SHEET_ACTIVE_... where a fiber is not at rest, else 0. All that is added is 0 or more.
+ * Uses t[0..2]. */
 static void active_make(struct paper_sheet *p)
 {
     CM_field_id_t sum = p->t[0], part = p->t[1], other = p->t[2];
@@ -60,7 +69,6 @@ static void active_make(struct paper_sheet *p)
     kit_f_copy(sum, p->page.water);
     if (surface) {
         kit_f_add(sum, sum, p->surface_water);
-        kit_f_add(sum, sum, p->wet_around);
         kit_f_add(sum, sum, p->wet_part);
         sheet_paint_sum(
             p,
@@ -92,10 +100,11 @@ static void active_make(struct paper_sheet *p)
         kit_f_add(sum, sum, part);
     }
     CM_u_move_constant_1L(p->mask, 0, 8);
-    CM_f_gt_constant_1L(sum, 0.0, KIT_F);
-    CM_logand_context_with_test();
-    CM_u_move_constant_1L(p->mask, 1, 8);
-    CM_set_context();
+    kit_f_copy(part, sum);
+    if (surface)
+        kit_f_add(part, part, p->wet_around);
+    mask_where(p, part, SHEET_ACTIVE_AROUND);
+    mask_where(p, sum, SHEET_ACTIVE_WET);
     kit_f_set(sum, 0.0);
     kit_f_set(part, 0.0);
     kit_f_set(other, 0.0);
@@ -241,45 +250,67 @@ static void expected_mark(const struct paper_sheet *p, const struct boxes_wish *
     if (e->width == 0)
         return;
     for (int y = e->y + side_y; y < e->y + e->height - side_y; y++)
-        memset(active + (size_t)y * (size_t)wish->width + e->x + side_x, 1,
-               (size_t)(e->width - 2 * side_x));
+        for (int x = e->x + side_x; x < e->x + e->width - side_x; x++)
+            if (!active[(size_t)y * (size_t)wish->width + (size_t)x])
+                active[(size_t)y * (size_t)wish->width + (size_t)x] = SHEET_ACTIVE_AROUND;
 }
 
-/* Looks where it is wet, and cuts boxes if that is worth it. */
-static enum paper_status boxes_cut(struct paper_sheet *p)
+static void wet_find(struct paper_sheet *p, const uint8_t *active)
+{
+    for (int i = 0; i < PARTS_MOST; i++)
+        if (p->boxes->parts[i] && p->boxes->parts[i]->open)
+            part_wet_find(p, p->boxes->parts[i], active);
+}
+
+/* Whether the open boxes stay as they are, where those would be cut. */
+static bool boxes_stay(const struct paper_sheet *p, double area)
+{
+    const struct sheet_boxes *b = p->boxes;
+    return b->confined && b->good >= (steps_ahead(p) + 1) / 2 &&
+           area > SHRUNK * parts_area(b) &&
+           (b->expected.width == 0 || part_around(p, &b->expected));
+}
+
+/* Boxes around what is active, if that is worth it. */
+static enum paper_status boxes_around(struct paper_sheet *p, const struct boxes_wish *wish,
+                                      const uint8_t *active)
 {
     struct sheet_boxes *b = p->boxes;
-    const struct boxes_wish wish = wish_of(p);
-    const double all = (double)wish.width * wish.height;
     struct box boxes[BOXES_MOST];
-    uint8_t *active = calloc((size_t)wish.height, (size_t)wish.width);
-    if (!active)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", wish.width,
-                          wish.height);
-    paper_enter(&p->page);
-    if (b->confined)
-        parts_look(p, &wish, active);
-    else
-        active_read(p, active);
-    enum paper_status status = paper_leave(&p->page);
-    expected_mark(p, &wish, active);
-    const struct box *e = &b->expected;
-    const int count = boxes_find(&wish, active, boxes);
-    free(active);
-    if (status != PAPER_OK)
-        return status;
-    const double area = boxes_area(boxes, count);
-    if (b->confined && b->good >= (steps_ahead(p) + 1) / 2 && area > SHRUNK * parts_area(b) &&
-        (e->width == 0 || part_around(p, e)))
+    const int count = boxes_find(wish, active, boxes), wait_next = b->wait_next;
+    const double area = boxes_area(boxes, count), all = (double)wish->width * wish->height;
+    if (boxes_stay(p, area))
         return PAPER_OK;
-    const int wait_next = b->wait_next;
     parts_leave(p);
-    status = paper_leave(&p->page);
+    const enum paper_status status = paper_leave(&p->page);
     if (status != PAPER_OK || area <= SHARE_MOST * all)
         return status == PAPER_OK ? boxes_open(p, boxes, count) : status;
     b->wait = wait_next;
     b->wait_next = 2 * wait_next < WAIT_MOST ? 2 * wait_next : WAIT_MOST;
     return PAPER_OK;
+}
+
+/* Looks where it is wet, and cuts boxes if that is worth it. */
+static enum paper_status boxes_cut(struct paper_sheet *p)
+{
+    const struct boxes_wish wish = wish_of(p);
+    uint8_t *active = calloc((size_t)wish.height, (size_t)wish.width);
+    if (!active)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", wish.width,
+                          wish.height);
+    paper_enter(&p->page);
+    if (p->boxes->confined)
+        parts_look(p, &wish, active);
+    else
+        active_read(p, active);
+    enum paper_status status = paper_leave(&p->page);
+    if (status == PAPER_OK) {
+        expected_mark(p, &wish, active);
+        status = boxes_around(p, &wish, active);
+        wet_find(p, active);
+    }
+    free(active);
+    return status;
 }
 
 /* ---- steps ---- */
@@ -357,9 +388,9 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
         s->salt_strength = p->salt_strength;
         CM_set_vp_set(s->page.grid.vp_set);
         sheet_step_everywhere(s);
-        struct box inside;
-        part_inside(b->parts[i], &inside);
-        sheet_area_mark(p, inside.x, inside.y, inside.width, inside.height);
+        struct box changed;
+        part_changed(b->parts[i], &changed);
+        sheet_area_mark(p, changed.x, changed.y, changed.width, changed.height);
     }
     if (confined) {
         b->ahead = true;
@@ -409,6 +440,7 @@ struct paper_sheet *sheet_boxes_touch(struct paper_sheet *p, int x1, int y1, int
         return p;
     }
     const int good = part_good_for(p, part, &at);
+    part_wet_add(p, part, &at);
     b->good = good < b->good ? good : b->good;
     b->ahead = true;
     origin[0] = part->box.x;

@@ -127,6 +127,83 @@ void part_inside(const struct part *part, struct box *inside)
                            box->width - 2 * part->rim[0], box->height - 2 * part->rim[1]};
 }
 
+/* ---- what is wet in them ---- */
+
+/* Fibers from..from + length - 1 of an axis, joined with `at`, which may be none. */
+static void range_join(int *from, int *length, int at, int at_length)
+{
+    const int end = *from + *length, at_end = at + at_length;
+    if (at_length < 1)
+        return;
+    *from = *length < 1 || at < *from ? at : *from;
+    *length = (*length < 1 || at_end > end ? at_end : end) - *from;
+}
+
+/* The wet fibers of a stretch of a row of the sheet, which begins at that column of the box. */
+static void stretch_join(int *from, int *length, const uint8_t *row, int column, int count)
+{
+    const uint8_t *first = memchr(row, SHEET_ACTIVE_WET, (size_t)count),
+                  *last = first ? memrchr(row, SHEET_ACTIVE_WET, (size_t)count) : NULL;
+    if (first)
+        range_join(from, length, column + (int)(first - row), (int)(last - first) + 1);
+}
+
+void part_wet_find(const struct paper_sheet *p, struct part *part, const uint8_t *active)
+{
+    const struct box *box = &part->box;
+    const int width = p->page.grid.width, height = p->page.grid.height,
+              before_edge = box->x + box->width < width ? box->width : width - box->x;
+    struct box wet = {0, 0, 0, 0};
+    for (int y = 0; y < box->height; y++) {
+        const uint8_t *row = active + (size_t)((box->y + y) % height) * (size_t)width;
+        int x = 0, length = 0;
+        stretch_join(&x, &length, row + box->x, 0, before_edge);
+        stretch_join(&x, &length, row, before_edge, box->width - before_edge);
+        range_join(&wet.x, &wet.width, x, length);
+        range_join(&wet.y, &wet.height, y, length > 0);
+    }
+    part->wet = wet;
+    part->wet_steps = 0;
+}
+
+void part_wet_add(const struct paper_sheet *p, struct part *part, const struct box *at)
+{
+    const int width = p->page.grid.width, height = p->page.grid.height;
+    struct box *wet = &part->wet;
+    range_join(&wet->x, &wet->width, ((at->x - part->box.x) % width + width) % width,
+               at->width);
+    range_join(&wet->y, &wet->height, ((at->y - part->box.y) % height + height) % height,
+               at->height);
+}
+
+/* from..from + length - 1 without what is on the rim. An axis without a rim is a ring: what
+ * goes over its end is somewhere on all of it. */
+static void range_inside(int *from, int *length, int all, int rim)
+{
+    if (rim == 0 && (*from < 0 || *from + *length > all)) {
+        *from = 0;
+        *length = all;
+        return;
+    }
+    const int end = *from + *length < all - rim ? *from + *length : all - rim;
+    *from = *from > rim ? *from : rim;
+    *length = end - *from;
+}
+
+void part_changed(struct part *part, struct box *changed)
+{
+    const int far = ++part->wet_steps + SHEET_LOOK_REACH;
+    struct box *c = changed;
+    *c = part->wet;
+    if (c->width < 1)
+        return;
+    *c = (struct box){c->x - far, c->y - far, c->width + 2 * far, c->height + 2 * far};
+    range_inside(&c->x, &c->width, part->box.width, part->rim[0]);
+    range_inside(&c->y, &c->height, part->box.height, part->rim[1]);
+    c->x += part->box.x;
+    c->y += part->box.y;
+}
+
 static void part_give(struct paper_sheet *p, const struct part *part, void *words)
 {
     struct copied all[COPIED_MOST];

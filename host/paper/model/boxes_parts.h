@@ -5,6 +5,8 @@
 #include "model/boxes_find.h"
 #include "model/model.h"
 
+/* Why a fiber is not at rest: water and paint, or that alone which tells of wet ones around. */
+enum { SHEET_ACTIVE_AROUND = 1, SHEET_ACTIVE_WET };
 enum {
     PARTS_MOST = 2 * BOXES_MOST,
     WAIT_LEAST = 24 /* steps until a sheet that had no boxes is looked at again */
@@ -18,6 +20,10 @@ struct part {
     /* fibers along its sides, on each axis (x, y), that look at what is beyond: 0 where it is
      * as long as the sheet */
     int rim[2];
+    /* All that is wet or has paint that moves was in these fibers of the box so many steps ago;
+     * without a width: nothing. In a step it spreads by one fiber. */
+    struct box wet;
+    int wet_steps;
     bool open;
     bool dressed; /* it has what only pictures need, too */
     bool lit;     /* ... and the relief */
@@ -47,6 +53,12 @@ void part_fill(struct paper_sheet *p, struct part *part, void *words);
 void part_look(struct paper_sheet *p, struct part *part);
 /* The box without its rim. */
 void part_inside(const struct part *part, struct box *inside);
+/* What is wet in the part, from active fibers: SHEET_ACTIVE_WET. Shape: the sheet's. */
+void part_wet_find(const struct paper_sheet *p, struct part *part, const uint8_t *active);
+/* Fibers of the sheet get wet. */
+void part_wet_add(const struct paper_sheet *p, struct part *part, const struct box *at);
+/* Another step: fibers of the sheet whose picture it may have changed; no width: none. */
+void part_changed(struct part *part, struct box *changed);
 /* Parts that are closed stay, as long as they and the open ones take no more than boxes may. */
 void parts_closed_few(struct paper_sheet *p);
 /* What open parts have changed, into the sheet's fields, if that has not been done. Between
