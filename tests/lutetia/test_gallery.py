@@ -1,12 +1,15 @@
 """The gallery: each piece of `lutetia stage` is led by its script, and pieces from elsewhere reach nothing.
 
-usage: test_gallery.py LUTETIA PIECES FOLDER
+usage: test_gallery.py LUTETIA PIECES FOLDER PICTURE
 """
 import os
 import random
+import re
 import shutil
+import struct
 import subprocess
 import sys
+import zlib
 
 lutetia, pieces, folder = (os.path.abspath(a) for a in sys.argv[1:4])
 shutil.rmtree(folder, ignore_errors=True)
@@ -49,6 +52,44 @@ def gallery():
                             still("c.png", "stage", "idle.lua", *moment))
         must(led == again, f"{name}: not the same twice")
         must(led != idle, f"{name}: its script changes nothing")
+
+
+def png_rows(path):
+    """The rows of an RGB picture of eight bits."""
+    with open(path, "rb") as file:
+        data = file.read()
+    at, packed, width = 8, b"", struct.unpack(">I", data[16:20])[0]
+    must(data[24:26] == b"\x08\x02" and data[28] == 0, f"{path}: not RGB of eight bits")
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        packed += data[at + 8:at + 8 + length] if kind == b"IDAT" else b""
+        at += 12 + length
+    plain, rows, above = zlib.decompress(packed), [], bytearray(3 * width)
+    for begin in range(0, len(plain), 3 * width + 1):
+        how, row = plain[begin], bytearray(plain[begin + 1:begin + 1 + 3 * width])
+        for i, value in enumerate(row):
+            a, b, c = row[i - 3] if i > 2 else 0, above[i], above[i - 3] if i > 2 else 0
+            near = min((a, b, c), key=lambda v: abs(a + b - c - v))
+            row[i] = value + (0, a, b, (a + b) // 2, near)[how] & 255
+        rows.append(bytes(row))
+        above = row
+    return rows
+
+
+def documented(pictured):
+    """The picture of all pieces in the documents shows them as they are now."""
+    with open(os.path.join(os.path.dirname(pictured), "..", "stage.md"), encoding="utf-8") as file:
+        said = file.read()
+    names = re.search(r"at the left ([a-z, ]+), at the right ([a-z, ]+)\]\(images/stage-pieces.png", said)
+    whole = png_rows(pictured)
+    for column in (0, 1):
+        for row, name in enumerate(names[column + 1].split(", ")):
+            still("w.png", "stage", name, "--strip", "5x1", look=["--size", "700x112"])
+            rows = png_rows(os.path.join(folder, "w.png"))
+            other = [line[2100 * column:2100 * (column + 1)] for line in whole[112 * row:112 * (row + 1)]]
+            far = sum(a != b for line, there in zip(rows, other) for a, b in zip(line, there)) / (112 * 2100)
+            must(len(rows) == 112 and far < 0.02, f"{name}: {100 * far:.1f} % of its picture in the documents are otherwise")
+    os.remove(os.path.join(folder, "w.png"))
 
 
 def windows():
@@ -134,6 +175,7 @@ def damaged():
 
 
 gallery()
+documented(os.path.abspath(sys.argv[4]))
 windows()
 repeats()
 breakdowns()
