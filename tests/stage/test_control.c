@@ -8,6 +8,8 @@
 #include <cmocka.h>
 
 #include <control_table.h>
+#include <spring_controls.h>
+#include <word.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -202,6 +204,24 @@ static void useful_values_are_in_the_middle(void **state)
     }
 }
 
+/* Of all that springs and words have; places that are far away have no sliders. */
+static void springs_sliders_begin_in_the_middle(void **state)
+{
+    (void)state;
+    const double sliders_most = 1e5, beside = 0.11;
+    for (int i = 0; i < dyn_controls_count + dyn_word_controls_count; i++) {
+        const struct control *row = i < dyn_controls_count
+                                        ? &dyn_controls[i]
+                                        : &dyn_word_controls[i - dyn_controls_count];
+        const bool has_slider =
+            row->curve != CONTROL_SWITCH && row->curve != CONTROL_CHOICE &&
+            (row->curve == CONTROL_LOGARITHMIC || row->most - row->least < sliders_most);
+        const double along = control_along(row, row->usual);
+        if (has_slider && row->usual > row->least && fabs(along - 0.5) > beside)
+            fail_msg("%s: what is usual is at %.2f of its way", row->name, along);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -211,6 +231,7 @@ int main(void)
         cmocka_unit_test(numbers_have_their_decimals),
         cmocka_unit_test(sliders_are_curves),
         cmocka_unit_test(useful_values_are_in_the_middle),
+        cmocka_unit_test(springs_sliders_begin_in_the_middle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
