@@ -399,6 +399,12 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
     return paper_leave(&p->page);
 }
 
+enum paper_status sheet_boxes_finish(struct paper_sheet *p)
+{
+    const struct sheet_boxes *b = p->boxes;
+    return b && b->confined && b->good < 1 ? boxes_cut(p) : PAPER_OK;
+}
+
 /* ---- strokes ---- */
 
 enum paper_status sheet_boxes_expect(struct paper_sheet *p, int x1, int y1, int x2, int y2)

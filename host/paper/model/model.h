@@ -146,6 +146,10 @@ void sheet_change_place(struct paper_sheet *p, const struct paper_place *place);
 void sheet_change_all(struct paper_sheet *p);
 void sheet_boxes_init(struct paper_sheet *p);
 void sheet_boxes_destroy(struct paper_sheet *p);
+/* Boxes whose steps are used up are looked at, when all that was asked for is computed: so the
+ * next step is computed as every other. A step that finds them used up looks at them itself,
+ * and what waits is then computed in other parts, by kernels that are seldom needed. */
+enum paper_status sheet_boxes_finish(struct paper_sheet *p);
 /* A stroke is going to touch fibers x1..x2 - 1, y1..y2 - 1, or nothing (x1 = x2) from now on:
  * boxes have room for it. */
 enum paper_status sheet_boxes_expect(struct paper_sheet *p, int x1, int y1, int x2, int y2);

@@ -156,7 +156,8 @@ void sheet_destroy(struct paper_sheet *p)
 
 enum paper_status sheet_finish(struct paper_sheet *p)
 {
-    return paper_finish(&p->page);
+    const enum paper_status status = paper_finish(&p->page);
+    return status == PAPER_OK ? sheet_boxes_finish(p) : status;
 }
 
 void sheet_extras_reset(struct paper_sheet *p)
