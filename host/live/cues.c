@@ -53,9 +53,7 @@ static enum stage_status cue_check(const struct cues *c, const struct cue *cue)
         (row && stage_control_parse(row, cue->text, &value) == STAGE_OK &&
          stage_control_check(row, value) == STAGE_OK))
         return STAGE_OK;
-    char why[300];
-    snprintf(why, sizeof why, "%s", stage_error());
-    return stage_fail(STAGE_BAD_FILE, "%.200s:%d: %s", path, cue->line, why);
+    return stage_fail(STAGE_BAD_FILE, "%.200s:%d: %.800s", path, cue->line, stage_error());
 }
 
 enum stage_status cues_open(const struct cues_def *def, struct cues **out)

@@ -76,12 +76,12 @@ static enum stage_status names_check(const struct knobs *k)
     double value;
     for (int i = 0; i < k->text.rows_count; i++)
         if (!stage_control_find(k->rows, k->rows_count, k->text.rows[i].control))
-            return stage_fail(STAGE_BAD_FILE, "%.200s: %.500s", k->path, stage_error());
+            return stage_fail(STAGE_BAD_FILE, "%.200s: %.800s", k->path, stage_error());
     for (int i = 0; i < k->text.sets_count; i++) {
         const struct knobs_set *set = &k->text.sets[i];
         const struct control *row = stage_control_find(k->rows, k->rows_count, set->control);
         if (!row || stage_control_parse(row, set->value, &value) != STAGE_OK)
-            return stage_fail(STAGE_BAD_FILE, "%.200s: scene %d: %.500s", k->path, set->scene,
+            return stage_fail(STAGE_BAD_FILE, "%.200s: scene %d: %.800s", k->path, set->scene,
                               stage_error());
         if (!(value >= row->least && value <= row->most))
             return stage_fail(STAGE_BAD_FILE, "%.200s: scene %d: %s must be %g..%g (got %g)",

@@ -4,7 +4,7 @@
 const struct control *stage_control_find(const struct control *rows, int count,
                                          const char *name)
 {
-    char known[400];
+    char known[700];
     const struct control *row = control_find(rows, count, name, known, sizeof known);
     if (!row)
         stage_fail(STAGE_BAD_ARGUMENT, "there is no control '%.60s'; there are %s", name,

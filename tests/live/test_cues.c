@@ -188,6 +188,19 @@ static void what_cannot_be_done_is_said(void **state)
     cues_close(cues);
 }
 
+/* A list of controls is whole: it ends with the last one. */
+static void all_are_named(struct stage *of)
+{
+    int count;
+    const struct control *rows = stage_controls(of, &count);
+    for (int i = 0; i < count; i++) {
+        char name[70];
+        snprintf(name, sizeof name, " %s%s", rows[i].name, i + 1 < count ? "," : "");
+        if (!strstr(stage_error(), name))
+            fail_msg("%s is not in: %s", rows[i].name, stage_error());
+    }
+}
+
 static void wrong_lists_are_refused_with_their_line(void **state)
 {
     (void)state;
@@ -234,6 +247,8 @@ static void wrong_lists_are_refused_with_their_line(void **state)
         assert_null(cues);
         if (!strstr(stage_error(), wrong[i].says))
             fail_msg("'%s': %s", wrong[i].text, stage_error());
+        if (strstr(stage_error(), "there are rate"))
+            all_are_named(stage);
     }
     const struct cues_def nowhere = {.path = "/no/where.cues", .stage = stage};
     struct cues *cues;
