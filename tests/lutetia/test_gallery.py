@@ -103,7 +103,7 @@ def windows():
 def repeats():
     """The pieces that come back to what they were: what follows the loop is its beginning, to the bit."""
     size = ["--size", "240x160"]
-    for name, settle, period in (("breath", 4.5, 4), ("apart", 5.5, 5)):
+    for name, settle, period in (("breath", 4.5, 4), ("apart", 5.5, 5), ("curtain", 28, 14)):
         begin, later = (still(f"{when}.png", "stage", name, "--seconds", str(settle + when * period), look=size) for when in (0, 1))
         between = still("between.png", "stage", name, "--seconds", str(settle + period / 2), look=size)
         must(begin == later, f"{name}: it does not come back after {period} s")
