@@ -3,7 +3,7 @@
 
 #include <growing_file.h>
 
-#include <errno.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -61,7 +61,7 @@ static void *sync_run(void *context)
 /* Without a thread, the system brings the file to the disk when it likes. */
 static void sync_begin(struct stage_session_file *f)
 {
-    f->descriptor = dup(fileno(f->file.out.stream));
+    f->descriptor = fcntl(fileno(f->file.out.stream), F_DUPFD_CLOEXEC, 3);
     f->syncs = f->descriptor >= 0 && pthread_create(&f->syncer, NULL, sync_run, f) == 0;
 }
 
