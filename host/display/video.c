@@ -148,7 +148,8 @@ _Noreturn static void encoder_become(const struct video *v, int input, int fps)
                                NULL};
     const char *const pictures[] = {"-i", "pipe:0", NULL};
     const char *const heard[] = {"-protocol_whitelist", "file", "-f", "wav", "-i", sound, NULL};
-    const char *const hears[] = {"-map", "1:a", NULL};
+    /* a film that is interrupted ends with its pictures */
+    const char *const hears[] = {"-map", "1:a", "-shortest", NULL};
     const char *const end[] = {"-r", rate, "-f", v->container->format, output, NULL};
     words_add(words, begin);
     if (v->raw)

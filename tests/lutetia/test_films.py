@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 SKIPPED = 77
 SECONDS = 60
@@ -60,6 +61,25 @@ def tried(lutetia, at, ending, whole, frames, part):
         subprocess.run(["umount", str(disk)], check=True)
 
 
+def interrupted(lutetia, at):
+    """A film that is ended early is whole, and its sound ends with its pictures."""
+    film = at / "early.mp4"
+    child = subprocess.Popen([lutetia, "spring", "early", "--preset", "jelly", "--video", str(film), "--seconds", "60", "--size", "320x240"],
+                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    until = time.monotonic() + SECONDS
+    while not list(at.glob(".early.mp4.*.part")) and time.monotonic() < until:
+        time.sleep(0.01)
+    time.sleep(1)
+    child.terminate()
+    child.wait(timeout=SECONDS)
+    assert frames_of(film) > 0, film
+    done = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "stream=duration", "-of", "csv=p=0", str(film)], capture_output=True,
+                          timeout=SECONDS, check=True)
+    lengths = [float(line.strip(",")) for line in done.stdout.decode().split()]
+    assert 0 < lengths[0] < 59 and max(lengths) - min(lengths) < 0.2, lengths
+    film.unlink()
+
+
 def main():
     lutetia = os.path.abspath(sys.argv[1])
     with tempfile.TemporaryDirectory(prefix="lutetia-films-") as folder:
@@ -68,6 +88,7 @@ def main():
         if not (shutil.which("ffmpeg") and shutil.which("ffprobe")):
             print("skipped: there is no ffmpeg")
             sys.exit(SKIPPED)
+        interrupted(lutetia, at)
         if os.geteuid() != 0 or not mount(at / "disk", 65536):
             print("skipped: this user cannot mount a disk")
             sys.exit(SKIPPED)
