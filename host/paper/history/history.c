@@ -370,7 +370,11 @@ enum paper_status sheet_ready(struct paper_sheet *p)
             checkpoint_reached(h, point);
         h->loaded = false;
     }
-    return catch_up(p);
+    const long before = h->work;
+    status = catch_up(p);
+    if (status == PAPER_OK && h->work - before >= CHECKPOINT_EVERY)
+        checkpoint_offer(p, true); /* who came here will come again: undo, and undo again */
+    return status;
 }
 
 /* ---- back and forth ---- */

@@ -80,11 +80,12 @@ struct sheet_history {
     void *tell_context;
     struct event_log log; /* the operations; their kinds are enum sheet_event_kind */
     struct position now, at;
-    struct paper_air air; /* history_air()'s */
-    long work;            /* at `at` */
-    double spared;        /* of the steps since the last checkpoint, by boxes */
-    long steps_before;    /* the sheet's time before the operation that is being performed */
-    bool open;            /* further steps may be joined to the last operation */
+    struct paper_air air;  /* history_air()'s */
+    long work;             /* at `at` */
+    double spared;         /* of the steps since the last checkpoint, by boxes */
+    long exchanges_before; /* the sheet's, before the stroke that is being painted */
+    long steps_before;     /* the sheet's time before the operation that is being performed */
+    bool open;             /* further steps may be joined to the last operation */
     struct notes notes;
     bool following, diverged;
     long resumed;               /* the time at which the saved run had been followed to its

@@ -10,6 +10,9 @@
 
 #include <stdlib.h>
 
+/* Exchanges that take as long as a step of a sheet of 1024x1024. */
+#define EXCHANGES_A_STEP 20.0
+
 static enum paper_status stroke_there(const struct paper_sheet *p)
 {
     return sheet_growing(p) ? PAPER_OK
@@ -44,6 +47,7 @@ enum paper_status history_stroke_begin(struct paper_sheet *p, int number, double
     h->painting = true;
     h->painted_at = h->at;
     h->steps_before = p->steps;
+    h->exchanges_before = p->exchanges;
     h->at.op = -1;
     return PAPER_OK;
 }
@@ -74,7 +78,8 @@ static enum paper_status stroke_record(struct paper_sheet *p, const struct paper
     }
     op.steps = (int)(p->steps - h->steps_before);
     h->work += 1 + op.steps;
-    h->spared += op.steps * (1 - sheet_share(p));
+    h->spared += op.steps * (1 - sheet_share(p)) -
+                 (double)(p->exchanges - h->exchanges_before) / EXCHANGES_A_STEP;
     return history_keep(p, op);
 }
 

@@ -41,7 +41,8 @@ struct paper_sheet {
     struct sheet_history
         *history; /* history/; nothing in this folder looks at it. NULL: nothing is recorded */
     long steps;   /* that were computed */
-    bool touched; /* something was done, and not recorded */
+    long exchanges; /* with brushes, since the sheet was made */
+    bool touched;   /* something was done, and not recorded */
     /* how many times finer than its stock is known the sheet is, 1 or more; a render at 2 is
      * 2 */
     double finer;

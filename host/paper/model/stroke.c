@@ -292,6 +292,12 @@ static struct paper_sheet *contacts_make(struct sheet_going *g, double from, dou
     return touching ? contacts_deal(g, dwell, rows) : NULL;
 }
 
+static void exchange(const struct sheet_going *g, struct paper_sheet *at)
+{
+    sheet_brush_exchange(at, g->sheet->brushes, g->own);
+    g->sheet->exchanges++;
+}
+
 /* ---- where a stroke begins and ends ---- */
 
 /* The place `count` of so many in a bristle's share of the tuft: they lie evenly on a disc. */
@@ -345,8 +351,7 @@ static void tuft_rest(struct sheet_going *g, double time, double dwell)
                             place_add(g, &tuft, row, i, &hair, beside, part);
             }
         if (touching)
-            sheet_brush_exchange(contacts_deal(g, moment, BRUSH_ROWS), g->sheet->brushes,
-                                 g->own);
+            exchange(g, contacts_deal(g, moment, BRUSH_ROWS));
     }
 }
 
@@ -385,7 +390,7 @@ static void brush_go(struct sheet_going *g, double from, double to, bool first, 
         struct paper_sheet *at =
             contacts_make(g, from + done * seconds / count, seconds / count, rows, dwell);
         if (at)
-            sheet_brush_exchange(at, g->sheet->brushes, g->own);
+            exchange(g, at);
         done += rows;
     }
     if (last)
