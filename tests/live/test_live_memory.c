@@ -42,10 +42,18 @@ struct played {
     double turn_s;
 };
 
+#ifdef __SANITIZE_ADDRESS__ /* its malloc is another one; gcc has no header of it */
+size_t __sanitizer_get_current_allocated_bytes(void);
+#endif
+
 static size_t in_use(void)
 {
+#ifdef __SANITIZE_ADDRESS__
+    return __sanitizer_get_current_allocated_bytes();
+#else
     const struct mallinfo2 m = mallinfo2();
     return m.uordblks + m.hblkhd;
+#endif
 }
 
 static void message_count(void *context, const struct midi_message *m, double late_s)

@@ -25,7 +25,18 @@ def missing():
         return "gdb has no Python"
     if "exited normally" not in tried.stdout:
         return "processes cannot be traced here (ptrace)"
-    return None
+    return called()
+
+
+def called():
+    """Why gdb cannot call functions of a program here; None: it can. gdb before 14 cannot on processors with AMX."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "two")
+        subprocess.run(["cc", "-g", "-x", "c", "-", "-o", path], input="int two(void) { return 2; }\nint main(void) { return two() - 2; }\n", text=True,
+                       timeout=120, check=True)
+        tried = subprocess.run(["gdb", "-q", "-batch", "-nx", "-ex", "break main", "-ex", "run", "-ex", "print two()", path],
+                               cwd=folder, capture_output=True, text=True, timeout=120, check=False)
+    return "this gdb cannot write registers of this processor (gdb 14 can)" if "extended state" in tried.stderr else None
 
 
 def own_lines(text):

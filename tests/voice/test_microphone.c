@@ -294,6 +294,8 @@ static void letters_in_a_window_follow(void)
     assert_true(window != 0);
     player_connect();
     struct told quiet = {0}, loud = {0}, end = {0};
+    told_wait(port, &quiet,
+              is_told_quiet); /* it listens, and what begins now has a beginning */
     (void)ink_wait(window, 0, 50, port, &quiet); /* nothing is heard: nothing is seen */
     player.level = 500;
     const long most = ink_wait(window, 3000, 480 * 240, port, &loud);
