@@ -148,8 +148,9 @@ _Noreturn static void encoder_become(const struct video *v, int input, int fps)
                                NULL};
     const char *const pictures[] = {"-i", "pipe:0", NULL};
     const char *const heard[] = {"-protocol_whitelist", "file", "-f", "wav", "-i", sound, NULL};
-    /* a film that is interrupted ends with its pictures */
-    const char *const hears[] = {"-map", "1:a", "-shortest", NULL};
+    /* A film ends with its pictures, also an interrupted one: silence follows the sound, and
+     * the shorter of both is then the pictures. */
+    const char *const hears[] = {"-map", "1:a", "-af", "apad", "-shortest", NULL};
     const char *const end[] = {"-r", rate, "-f", v->container->format, output, NULL};
     words_add(words, begin);
     if (v->raw)
