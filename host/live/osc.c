@@ -278,7 +278,7 @@ size_t osc_message_write(uint8_t *out, size_t room, const char *address, const c
 size_t osc_bundle_add(uint8_t *out, size_t room, size_t used, const char *address,
                       const char *types, ...)
 {
-    enum { HEAD = 16, LENGTH = 4 };
+    enum { HEAD = 16 }; /* its name, and the time "at once" */
     struct writer w = {.out = out, .room = room, .used = used};
     va_list arguments;
     if (used == 0)
