@@ -4,10 +4,11 @@
  * programs that listen. A thousand notes a second, five rounds of a thousand; each delivery is
  * timed, from before the write at the instrument's end to after the read in the program. The
  * cases are: an idle machine; the same whose processors may sleep between notes; as many busy
- * processes as processors; and the first and the last with real-time priority for the server,
- * the programs and the player, where that is allowed. Lost or altered messages are errors. Then
- * a program takes the place of the instrument, because the terminal's bytes go through a kernel
- * worker, which has no such priority.
+ * processes as processors; the first and the last with real-time priority for the server, the
+ * programs and the player, where that is allowed; and these two again with the kernel's workers
+ * that carry terminals' bytes before other programs (server_workers.h). Lost or altered
+ * messages are errors. Then a program takes the place of the instrument, because those workers
+ * have the usual priority else.
  *
  * At last what is played, seen and heard (midi_live.c).
  *
@@ -103,7 +104,7 @@ static bool round_measure(struct midi_scene *s, uint32_t from, double part_us[PA
 
 struct kind_of_case {
     const char *load, *words;
-    bool loaded, real_time, may_sleep;
+    bool loaded, real_time, may_sleep, terminals_first;
 };
 
 static void rows_add(struct bench_report *r, enum midi_player player,
@@ -124,7 +125,8 @@ static void rows_add(struct bench_report *r, enum midi_player player,
 static bool case_measure(struct bench_report *r, enum midi_player player,
                          const struct kind_of_case *kind, int rounds)
 {
-    const struct midi_scene_def def = {player, kind->real_time, kind->may_sleep};
+    const struct midi_scene_def def = {player, kind->real_time, kind->may_sleep,
+                                       kind->terminals_first};
     struct midi_scene scene;
     struct busy busy = {.count = 0};
     double *us = calloc(PARTS * (size_t)rounds, sizeof *us), one[PARTS];
@@ -149,16 +151,21 @@ static bool case_measure(struct bench_report *r, enum midi_player player,
 
 static bool cases_measure(struct bench_report *r, int rounds)
 {
-    static const struct kind_of_case kinds[] = {{"idle", "", false, false, false},
-                                                {"idle", ", may sleep", false, false, true},
-                                                {"idle", ", real time", false, true, false},
-                                                {"loaded", "", true, false, false},
-                                                {"loaded", ", real time", true, true, false}};
-    const bool real_time = midi_real_time_allowed(), awake = midi_awake_allowed();
+    static const struct kind_of_case kinds[] = {
+        {"idle", "", false, false, false, false},
+        {"idle", ", may sleep", false, false, true, false},
+        {"idle", ", real time", false, true, false, false},
+        {"idle", ", terminals first", false, true, false, true},
+        {"loaded", "", true, false, false, false},
+        {"loaded", ", real time", true, true, false, false},
+        {"loaded", ", terminals first", true, true, false, true}};
+    const bool real_time = midi_real_time_allowed(), awake = midi_awake_allowed(),
+               first = midi_terminals_first_allowed();
     bool ok = true;
     for (int player = MIDI_FROM_INSTRUMENT; player <= MIDI_FROM_PROGRAM; player++)
         for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-            if ((real_time || !kinds[i].real_time) && (awake || !kinds[i].may_sleep))
+            if ((real_time || !kinds[i].real_time) && (awake || !kinds[i].may_sleep) &&
+                ((first && player == MIDI_FROM_INSTRUMENT) || !kinds[i].terminals_first))
                 ok = ok && case_measure(r, (enum midi_player)player, &kinds[i], rounds);
     if (!real_time)
         visible_say("lutetia bench midi: real time is not allowed here (`ulimit -r`); its "
@@ -166,6 +173,9 @@ static bool cases_measure(struct bench_report *r, int rounds)
     if (!awake)
         visible_say("lutetia bench midi: processors cannot be kept awake here "
                     "(" LATENCY_PATH "); they may sleep in all rows");
+    if (!first)
+        visible_say("lutetia bench midi: the system's workers cannot be changed here; rows of "
+                    "terminals first are missing");
     return ok;
 }
 

@@ -7,6 +7,7 @@
 #include <midi_client.h>
 #include <midi_notes.h>
 #include <midi_server.h>
+#include <server_workers.h>
 
 #include <errno.h>
 #include <fcntl.h>
@@ -44,6 +45,14 @@ bool midi_real_time_allowed(void)
 bool midi_awake_allowed(void)
 {
     return access(LATENCY_PATH, W_OK) == 0;
+}
+
+bool midi_terminals_first_allowed(void)
+{
+    const char *why;
+    struct server_workers *workers = workers_create("/proc", &why);
+    workers_destroy(workers);
+    return workers != NULL;
 }
 
 /* splitmix64's finaliser. */
@@ -93,7 +102,8 @@ static void serve(const struct midi_scene *s)
                                         .devices = devices,
                                         .devices_count = 1,
                                         .real_time = s->def.real_time,
-                                        .awake = !s->def.may_sleep};
+                                        .awake = !s->def.may_sleep,
+                                        .terminals_first = s->def.terminals_first};
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     close(s->port);
     if (midi_server_create(&def, &serving) != MIDI_OK)

@@ -50,6 +50,7 @@ struct midi_scene_def {
     /* SCHED_FIFO for the server, the listeners and whoever calls, where that is allowed */
     bool real_time;
     bool may_sleep; /* the server does not keep the processors awake */
+    bool terminals_first;
 };
 
 struct midi_client;
@@ -83,5 +84,6 @@ void midi_scene_end(struct midi_scene *s);
 /* Whether this user may have real-time priority, and keep processors awake. */
 bool midi_real_time_allowed(void);
 bool midi_awake_allowed(void);
+bool midi_terminals_first_allowed(void);
 
 #endif

@@ -28,7 +28,7 @@ struct midi_verb {
     const char *address, *device, *filters, *output, *font;
     int tcp_port, count;
     double seconds;
-    bool usual_priority, may_sleep;
+    bool usual_priority, may_sleep, terminals_first;
     struct option_words words;
 };
 
@@ -81,6 +81,7 @@ static int serve_do(struct midi_verb *v)
                                         .devices_count = v->words.count,
                                         .real_time = !v->usual_priority,
                                         .awake = !v->may_sleep,
+                                        .terminals_first = v->terminals_first,
                                         .log = serve_log};
     struct sigaction action = {.sa_handler = serve_stop};
     if (v->tcp_port && !def.token)
@@ -550,6 +551,10 @@ int verb_midi(int argc, char **argv)
          "serve, play: let processors sleep between messages, even where they can be kept "
          "awake",
          &v.may_sleep, 0, 0, 0},
+        {"terminals-first", 0, OPTION_FLAG, NULL,
+         "serve: what carries bytes of serial lines and terminals goes before other programs "
+         "while messages come (root)",
+         &v.terminals_first, 0, 0, 0},
         {"output", 'o', OPTION_TEXT, "FILE.wav", "render: the file that is written (out.wav)",
          &v.output, 0, 0, 0},
         {"soundfont", 0, OPTION_TEXT, "FILE",

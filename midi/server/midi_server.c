@@ -288,6 +288,7 @@ static void second_fire(struct server_timer *t, uint64_t now_ns)
     clients_sweep(s);
     rates_take(s, now_ns);
     awake_look(&s->awake, s->messages, now_ns);
+    workers_look(s->workers, s->messages, now_ns);
     loop_timer(&s->loop, t, now_ns + HOUSEKEEPING_MS * UINT64_C(1000000));
 }
 
@@ -319,6 +320,21 @@ static void awake_set(struct midi_server *s, bool wanted)
                  wanted ? "processors are kept awake while messages come"
                         : "processors may sleep");
     log_tell(&s->lines, "%s", s->sleep);
+}
+
+static void workers_set(struct midi_server *s, bool wanted)
+{
+    const char *why;
+    if (!wanted)
+        return;
+    s->workers = workers_create("/proc", &why);
+    if (s->workers)
+        snprintf(s->terminals, sizeof s->terminals,
+                 ", terminals' bytes go before other programs while messages come");
+    else
+        snprintf(s->terminals, sizeof s->terminals,
+                 ", terminals' bytes have the usual priority: %s", why);
+    log_tell(&s->lines, "%s", s->terminals + strlen(", "));
 }
 
 static enum midi_status listen_begin(struct midi_server *s, const struct midi_server_def *def)
@@ -385,6 +401,7 @@ enum midi_status midi_server_create(const struct midi_server_def *def, struct mi
                  TOKEN_BYTES_GOOD);
     real_time_begin(s, def->real_time);
     awake_set(s, def->awake);
+    workers_set(s, def->terminals_first);
     *out = s;
     return MIDI_OK;
 }
@@ -416,6 +433,7 @@ void midi_server_destroy(struct midi_server *s)
     s->devices_count = 0;
     clients_sweep(s);
     awake_end(&s->awake);
+    workers_destroy(s->workers);
     socket_leave(s->path, s->unix_watch.file, s->lock);
     if (s->tcp_watch.file >= 0)
         close(s->tcp_watch.file);

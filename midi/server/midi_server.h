@@ -36,6 +36,9 @@ struct midi_server_def {
     bool real_time; /* SCHED_FIFO, if that is allowed */
     /* no processor sleeps while messages come, if that is allowed (server_awake.h) */
     bool awake;
+    /* what carries serial lines' and terminals' bytes goes before other programs while messages
+     * come, if that is allowed: it concerns the whole system (server_workers.h) */
+    bool terminals_first;
     void (*log)(void *context, const char *line);
     void *context;
 };

@@ -6,6 +6,7 @@
 #include "server_awake.h"
 #include "server_client.h"
 #include "server_log.h"
+#include "server_workers.h"
 
 #include <midi_real_time.h>
 
@@ -29,11 +30,12 @@ struct midi_server {
     double in_hz[MIDI_WIRE_DEVICES], out_hz[MIDI_WIRE_DEVICES];
     uint64_t messages; /* both ways, but for active sensing */
     struct server_awake awake;
+    struct server_workers *workers; /* NULL: not asked for, or not allowed */
     char token[SERVER_TOKEN_BYTES], path[108];
     int tcp_port;
     struct server_log lines;
-    char real_time[MIDI_REAL_TIME_TEXT],
-        sleep[160]; /* for people: what was asked for, and what is allowed */
+    char real_time[MIDI_REAL_TIME_TEXT], sleep[160],
+        terminals[160]; /* for people: what was asked for, and what is allowed */
     /* sockets */
     struct server_watch unix_watch, tcp_watch, stop_watch;
     int lock;

@@ -150,9 +150,10 @@ static void status_do(struct midi_server *s, struct server_client *c, char *text
 {
     (void)c;
     (void)text;
-    say(r, "server: process %ld, %.0f s, %s, %s%s\n", (long)getpid(),
+    say(r, "server: process %ld, %.0f s, %s, %s%s%s%s\n", (long)getpid(),
         (double)(midi_now_ns() - s->began_ns) / 1e9, s->real_time, s->sleep,
-        s->awake.file >= 0 ? " (now)" : "");
+        s->awake.file >= 0 ? " (now)" : "", s->terminals,
+        workers_first(s->workers) ? " (now)" : "");
     for (int i = 0; i < s->devices_count; i++) {
         const struct server_device *d = s->devices[i];
         char line[160];

@@ -56,7 +56,7 @@ VERBS = {
         "play": "d"}),
     "midi render": (["song.mid", "-o", "out.wav"], {
         "output": None, "server": "/no/where", "device": "d", "filter": "channels=1", "count": "1", "seconds": "1", "tcp": "7777",
-        "usual-priority": "", "may-sleep": "", "soundfont": "none.sf2"}),
+        "usual-priority": "", "may-sleep": "", "terminals-first": "", "soundfont": "none.sf2"}),
 }
 # What changes nothing by right: where the base command goes by the same way.
 SAME = {("midi render", "server")}
