@@ -6,7 +6,7 @@
  * framebuffer of the canvas's own, which is read back into tiles. A tile that has not changed
  * is not drawn on the window again.
  *
- *     desk_area_renderer_choose(display);          before the first window
+ *     desk_renderer_choose(display);               before the first window
  *     GtkWidget *canvas = desk_area_new(draw, context);
  */
 #ifndef LUTETIA_DESK_AREA_H
@@ -21,10 +21,6 @@
  * the top left corner, and afterwards what has been, which may be nothing; outside of it the
  * framebuffer is as the last call left it. */
 typedef void desk_area_draw(void *context, int scale, struct studio_rectangle *drawn);
-
-/* Lets cairo draw the windows of this program if OpenGL is computed by the processors.
- * GSK_RENDERER in the environment has the last word. */
-void desk_area_renderer_choose(GdkDisplay *display);
 
 /* A GtkGLArea; gtk_gl_area_queue_render() draws it again. */
 GtkWidget *desk_area_new(desk_area_draw *draw, void *context);

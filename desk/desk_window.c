@@ -1,6 +1,7 @@
 /* desk_window.c - the window: header, tools, sheet, panel, a line of state; and what the paper
  * reports. */
 #include "desk.h"
+#include "desk_renderer.h"
 
 #include <visible_text.h>
 
@@ -305,7 +306,7 @@ void desk_window_open(struct desk *d)
 {
     GtkWidget *all = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0),
               *middle = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0), *over = gtk_overlay_new();
-    desk_area_renderer_choose(gdk_display_get_default());
+    desk_renderer_choose(gdk_display_get_default());
     desk_frame_theme(d->options.theme);
     d->changed = setting_changed;
     d->look = look;

@@ -298,12 +298,15 @@ static void tell(struct read_desk *d, const struct input *i)
         "top %zu\nline %s\nshown %d\nabove %.0f\nall %.0f\nset %ld\npainted %ld\nhits %u\nhit "
         "%d\n"
         "open %d\nselected %s\nway %u of %u\nfile %s\nheard %u\nremarks %d\norphans %d\nink "
-        "%.1f %.1f\ngrid %d %d\nedge %.1f\nplayed%s\nchosen %s\nunder %d\n%s%s%s",
+        "%.1f %.1f\ngrid %d %d\nedge %.1f\nplayed%s\nchosen %s\nunder %d\nrenderer "
+        "%s\n%s%s%s",
         top, g_strdelimit(line, "\n", ' '), count, above, all, reader_view_set_count(d->view),
         read_tiles_painted(d->tiles), d->hits->len, d->hit, opened, selected, d->way_at,
         d->way->len, d->files.count ? d->files.paths[block ? block->source : 0] : "",
         d->heard->len, remarks, orphans, ink_x, ink_y, grid->texts, grid->columns_count,
-        last->x + last->width, order, chosen, under_chosen(d), editing, small, stages);
+        last->x + last->width, order, chosen, under_chosen(d),
+        G_OBJECT_TYPE_NAME(gtk_native_get_renderer(GTK_NATIVE(d->window))), editing, small,
+        stages);
     if (!g_file_set_contents(i->text, told, -1, NULL))
         d->say(d, i->text);
     g_free(told);

@@ -1,6 +1,8 @@
 /* read_window.c - the window: header, search, the page and its scrollbar, what is told. */
 #include "read_desk.h"
 
+#include <desk_renderer.h>
+
 #include <string.h>
 #include <visible_text.h>
 
@@ -225,6 +227,7 @@ void read_window_open(struct read_desk *d)
 {
     GtkWidget *all = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0),
               *middle = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0), *over = gtk_overlay_new();
+    desk_renderer_choose(gdk_display_get_default());
     d->say = say;
     d->document_shown = document_shown;
     d->acted = read_actions_enable;

@@ -56,7 +56,6 @@ void played_run(const char *lines, const char *document)
         played_path("hand.events")};
     memcpy(played.arguments, arguments, sizeof arguments);
     played.variables[0] = "GTK_A11Y=none"; /* no bus is needed for this */
-    played.variables[1] = "GSK_RENDERER=cairo";
     child_run(&played);
 }
 
@@ -90,7 +89,6 @@ void played_well(void)
 void played_window(void)
 {
     played.variables[0] = "GTK_A11Y=none"; /* no bus is needed for this */
-    played.variables[1] = "GSK_RENDERER=cairo";
     child_run(&played);
     played_well();
 }

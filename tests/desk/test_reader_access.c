@@ -338,7 +338,6 @@ int main(int argc, char **argv)
         return 77;
     if (!document_write())
         return 1;
-    setenv("GSK_RENDERER", "cairo", 1);
     atspi_init();
     int failed = cmocka_run_group_tests(tests, start, end);
     failed += cmocka_run_group_tests(again, NULL, NULL);

@@ -74,7 +74,6 @@ static int start(void **state)
     document_write();
     dead_key_make();
     setenv("GTK_A11Y", "none", 1);
-    setenv("GSK_RENDERER", "cairo", 1);
     setenv("GTK_IM_MODULE", "gtk-im-context-simple", 1);
     reader = fork();
     if (reader == 0) {

@@ -298,6 +298,21 @@ static void only_new_lines_are_painted(void **state)
     assert_string_not_equal(played_told("moved", "above"), played_told("still", "above"));
 }
 
+/* An Xvfb has OpenGL by the processors or none: cairo draws the window there, unless somebody
+ * says what else does. */
+static void cairo_draws_where_processors_would(void **state)
+{
+    char lines[200];
+    (void)state;
+    snprintf(lines, sizeof lines, "0.3 tell %s", played_path("told"));
+    played_run(lines, played_path("one.md"));
+    played_well();
+    assert_string_equal(played_told("told", "renderer"), "GskCairoRenderer");
+    played.variables[1] = "GSK_RENDERER=gl";
+    child_run(&played);
+    assert_string_not_equal(played_told("told", "renderer"), "GskCairoRenderer");
+}
+
 /* The picture is the text: both themes, nothing empty. */
 static void picture_is_seen(void **state)
 {
@@ -520,6 +535,7 @@ int main(void)
         cmocka_unit_test(changed_elsewhere),
         cmocka_unit_test(pages_are_seen_small),
         cmocka_unit_test(foreign_notes_are_said),
+        cmocka_unit_test(cairo_draws_where_processors_would),
         cmocka_unit_test(picture_is_seen),
         cmocka_unit_test(wrong_is_one_line),
     };
