@@ -59,21 +59,6 @@ void reader_pages_destroy(struct reader_pages *p)
 
 /* ---- kinds of blocks ---- */
 
-/* Lists and quotes are moved in. */
-static void manner_nest(const struct reader_pages *p, const struct reader_block *block,
-                        struct page_manner *manner)
-{
-    const double em = p->setup.size_px, most = pages_column(p) / 2;
-    int items = block->items < READER_DEPTH_MAX ? block->items : READER_DEPTH_MAX;
-    int quotes = block->quotes < READER_DEPTH_MAX ? block->quotes : READER_DEPTH_MAX;
-    manner->left_px += fmin(most, 1.5 * em * items + 1.5 * em * quotes);
-    manner->right_px += fmin(most / 2, 1.5 * em * quotes);
-    if (quotes)
-        manner->role = FONT_ROLE_QUOTE;
-    if (items)
-        manner->role = FONT_ROLE_ITEM;
-}
-
 /* The item's number or bullet hangs before the first line. */
 static enum reader_status marker_add(struct reader_pages *p, const struct reader_block *block,
                                      struct paragraph_text *t, struct page_manner *manner)
@@ -95,7 +80,7 @@ static enum reader_status text_add(struct reader_pages *p, const struct reader_b
     struct page_manner manner = pages_manner(p, CONTEXT_TEXT);
     const double em = p->setup.size_px;
     bool nested = block->items || block->quotes;
-    manner_nest(p, block, &manner);
+    pages_nest(p, block, &manner);
     if (nested)
         manner.after_px = 0.2 * em;
     else if (!p->behind_head && !block->continues)
@@ -117,7 +102,7 @@ static enum reader_status heading_add(struct reader_pages *p, const struct reade
                                                : CONTEXT_HEAD_3;
     struct page_manner manner = pages_manner(p, context);
     const double em = p->setup.size_px;
-    manner_nest(p, block, &manner);
+    pages_nest(p, block, &manner);
     manner.before_px = em * (block->level == 1 ? 1.6 : block->level == 2 ? 1.3 : 0.9);
     manner.after_px = em * (block->level <= 2 ? 0.5 : 0.3);
     manner.keep_with_next = manner.keep_together = manner.balance = true;
@@ -132,84 +117,24 @@ static enum reader_status heading_add(struct reader_pages *p, const struct reade
     return status;
 }
 
-/* Tabs go to every fourth column, and a line that is empty is a blank: so that it has its
- * height. */
-static bool code_line_add(struct paragraph_text *t, const struct reader_block *block,
-                          const char *line, int bytes)
-{
-    int column = 0;
-    bool good = true;
-    if (!bytes)
-        return pages_text_add(t, " ", 1, READER_CODE);
-    for (int at = 0; at < bytes && good;) {
-        int run = 0;
-        while (at + run < bytes && line[at + run] != '\t')
-            run++;
-        good = pages_text_add(t, line + at, run, READER_CODE);
-        if (good && run)
-            t->spans[t->spans_count - 1].at = (long)block->at + (line + at - block->text);
-        column += run;
-        at += run;
-        if (at < bytes) {
-            int blanks = 4 - column % 4;
-            good = good && pages_text_add(t, "    ", blanks, READER_CODE);
-            column += blanks;
-            at++;
-        }
-    }
-    return good;
-}
-
-/* In pieces, so that no paragraph is too long for who sets it. */
-static enum reader_status code_add(struct reader_pages *p, const struct reader_block *block)
-{
-    enum { LINES_MAX = 60, BYTES_MAX = READER_PASSAGE_BYTES };
-    const double em = p->setup.size_px;
-    enum reader_status status = READER_OK;
-    for (int at = 0; at <= block->bytes && status == READER_OK;) {
-        struct paragraph_text t = {0};
-        struct page_manner manner = pages_manner(p, CONTEXT_CODE);
-        bool good = true;
-        manner_nest(p, block, &manner);
-        manner.left_px += em;
-        manner.role = FONT_ROLE_PARAGRAPH;
-        manner.before_px = at == 0 ? 0.45 * em : 0;
-        for (int n = 0; n < LINES_MAX && at <= block->bytes && t.bytes < BYTES_MAX && good;
-             n++) {
-            const char *line = block->text + at;
-            const char *end = memchr(line, '\n', (size_t)(block->bytes - at));
-            int bytes = end ? (int)(end - line) : block->bytes - at;
-            bytes = bytes < BYTES_MAX ? bytes : BYTES_MAX;
-            good = (n == 0 || pages_text_add(&t, "\n", 1, READER_CODE)) &&
-                   code_line_add(&t, block, line, bytes);
-            at += bytes + (end == line + bytes || at + bytes == block->bytes);
-        }
-        manner.after_px = at > block->bytes ? 0.6 * em : 0;
-        status =
-            good ? pages_paragraph_add(p, &t, CONTEXT_CODE, &manner, false) : pages_no_memory();
-        pages_text_finish(&t);
-    }
-    return status;
-}
-
 /* Its picture's room, where somebody will draw it, and its text. */
 static enum reader_status live_add(struct reader_pages *p, const struct reader_block *block)
 {
     struct page_manner manner = pages_manner(p, CONTEXT_TABLE);
     if (p->setup.stage_strip_px <= 0 || !block->stage_width)
-        return code_add(p, block);
-    manner_nest(p, block, &manner);
+        return pages_code_add(p, block);
+    pages_nest(p, block, &manner);
     manner.before_px = 0.6 * p->setup.size_px;
     manner.keep_with_next = true;
     enum reader_status status = pages_stage_add(p, block, &manner);
-    return status == READER_OK ? code_add(p, block) : status;
+    return status == READER_OK ? pages_code_add(p, block) : status;
 }
 
 static enum reader_status math_add(struct reader_pages *p, const struct reader_block *block)
 {
     struct paragraph_text t = {0};
     struct page_manner manner = pages_manner(p, CONTEXT_TEXT);
-    manner_nest(p, block, &manner);
+    pages_nest(p, block, &manner);
     manner.align = FONT_ALIGN_CENTER;
     manner.keep_together = true;
     manner.hyphenate = false;
@@ -253,7 +178,7 @@ static enum reader_status picture_add(struct reader_pages *p, const struct reade
     struct page_manner manner = pages_manner(p, CONTEXT_TABLE);
     const double gap = 0.6 * p->setup.size_px;
     bool shown = false;
-    manner_nest(p, block, &manner);
+    pages_nest(p, block, &manner);
     manner.align = FONT_ALIGN_CENTER;
     manner.before_px = gap;
     manner.keep_with_next = block->bytes > 0;
@@ -285,7 +210,7 @@ static enum reader_status block_add(struct reader_pages *p, const struct reader_
         return heading_add(p, block);
     case READER_CODE_BLOCK:
     case READER_HTML:
-        return code_add(p, block);
+        return pages_code_add(p, block);
     case READER_LIVE:
         return live_add(p, block);
     case READER_MATH:

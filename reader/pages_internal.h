@@ -1,5 +1,5 @@
 /* pages_internal.h - what makes pages of documents: styles and paragraphs (pages_style.c),
- * tables (pages_table.c), the rest (pages.c). */
+ * tables (pages_table.c), code (pages_code.c), the rest (pages.c). */
 #ifndef LUTETIA_READER_PAGES_INTERNAL_H
 #define LUTETIA_READER_PAGES_INTERNAL_H
 
@@ -51,6 +51,8 @@ enum {
     LOOKS = 32,
     FACES = 8
 }; /* slanted, heavy, code, link, struck; the first three choose the face */
+/* Code is set smaller by so many steps at most, of so much of its size. */
+enum { PAGES_CODE_STEPS = 8, PAGES_CODE_PERCENT = 5 };
 
 struct reader_pages {
     struct reader_pages_setup setup;
@@ -63,7 +65,9 @@ struct reader_pages {
     struct font_face *faces[FACES]; /* to measure by; opened when they are needed */
     struct font_shaper *shapers[FACES];
     int styles[CONTEXTS][LOOKS], raised[CONTEXTS]; /* from 1; 0: not made yet */
-    int insets; /* formulas and pictures that were ever set: each is a style */
+    int code_styles[PAGES_CODE_STEPS + 1][LOOKS];  /* of smaller code */
+    int code_steps; /* by how many the code that is set now is smaller; 0: it is not */
+    int insets;     /* formulas and pictures that were ever set: each is a style */
     int unknown_count;
     char unknown[48];
     const struct reader_document *document;
@@ -112,6 +116,7 @@ enum reader_status pages_no_memory(void);
 enum reader_status pages_fonts_open(struct reader_pages *p);
 void pages_fonts_close(struct reader_pages *p);
 double pages_size(const struct reader_pages *p, enum context context);
+double pages_code_scale(int steps); /* how large code is then, of its usual size */
 /* Letters behind those that are there. spans: of the block that they are bytes begin..end of;
  * NULL: all look so. */
 bool pages_text_add(struct paragraph_text *t, const char *text, int bytes, unsigned look);
@@ -130,6 +135,9 @@ enum reader_status pages_styles_apply(struct reader_pages *p, int id,
 enum reader_status pages_style(struct reader_pages *p, enum context context, unsigned look,
                                int *style);
 struct page_manner pages_manner(const struct reader_pages *p, enum context context);
+/* Lists and quotes are moved in. */
+void pages_nest(const struct reader_pages *p, const struct reader_block *block,
+                struct page_manner *manner);
 double pages_column(const struct reader_pages *p); /* how wide a column is */
 double pages_notes(const struct reader_pages *p);  /* and its margin for notes; 0: none */
 /* A paragraph of the text as it is. Where passages are made, keep it by pages_made_keep(). */
@@ -199,6 +207,10 @@ bool pages_caption(struct paragraph_text *t, const struct reader_block *block, b
 /* A picture that is found, as a box in a line of its own. *done: it was. */
 enum reader_status pages_picture_add(struct reader_pages *p, const struct reader_block *block,
                                      const struct page_manner *manner, bool *done);
+
+/* pages_code.c: lines of code, no wider than their column where they need not be much smaller
+ * for that. */
+enum reader_status pages_code_add(struct reader_pages *p, const struct reader_block *block);
 
 /* pages_stage.c: room for the picture of a script that lives, and for the strip under it. */
 enum reader_status pages_stage_add(struct reader_pages *p, const struct reader_block *block,

@@ -100,6 +100,11 @@ double reader_size_usual(enum reader_size size)
     return sizes[size];
 }
 
+double pages_code_scale(int steps)
+{
+    return 1 - 0.01 * PAGES_CODE_PERCENT * steps;
+}
+
 double pages_size(const struct reader_pages *p, enum context context)
 {
     static const int asked[CONTEXTS] = {[CONTEXT_TEXT] = -1,
@@ -111,7 +116,8 @@ double pages_size(const struct reader_pages *p, enum context context)
                                         [CONTEXT_TABLE] = READER_SIZE_TABLE};
     const int size = asked[context];
     const double own = size < 0 ? 1 : p->setup.sizes[size];
-    return (own > 0 ? own : reader_size_usual((enum reader_size)size)) * p->setup.size_px;
+    return (own > 0 ? own : reader_size_usual((enum reader_size)size)) * p->setup.size_px *
+           (context == CONTEXT_CODE ? pages_code_scale(p->code_steps) : 1);
 }
 
 /* ---- styles ---- */
@@ -132,8 +138,9 @@ enum reader_status pages_style(struct reader_pages *p, enum context context, uns
     struct page_style made = page_style_default();
     if (context == CONTEXT_HEAD_3)
         look |= READER_HEAVY;
-    int *kept =
-        look & READER_NOTE ? &p->raised[context] : &p->styles[context][look & (LOOKS - 1)];
+    int *kept = look & READER_NOTE        ? &p->raised[context]
+                : context == CONTEXT_CODE ? &p->code_styles[p->code_steps][look & (LOOKS - 1)]
+                                          : &p->styles[context][look & (LOOKS - 1)];
     *style = *kept - 1;
     if (*kept)
         return READER_OK;
@@ -167,6 +174,20 @@ struct page_manner pages_manner(const struct reader_pages *p, enum context conte
     manner.hyphenate = p->setup.hyphenate && running;
     manner.protrude = running ? 0.6 : 0;
     return manner;
+}
+
+void pages_nest(const struct reader_pages *p, const struct reader_block *block,
+                struct page_manner *manner)
+{
+    const double em = p->setup.size_px, most = pages_column(p) / 2;
+    int items = block->items < READER_DEPTH_MAX ? block->items : READER_DEPTH_MAX;
+    int quotes = block->quotes < READER_DEPTH_MAX ? block->quotes : READER_DEPTH_MAX;
+    manner->left_px += fmin(most, 1.5 * em * items + 1.5 * em * quotes);
+    manner->right_px += fmin(most / 2, 1.5 * em * quotes);
+    if (quotes)
+        manner->role = FONT_ROLE_QUOTE;
+    if (items)
+        manner->role = FONT_ROLE_ITEM;
 }
 
 /* Where what is made now stands on the grid; NULL: there is none. */

@@ -174,6 +174,62 @@ static void tables_have_columns_or_are_told(void **state)
     made_finish(&m);
 }
 
+/* How wide a letter of the code in a quote's item is whose line has so many; *lines: of the
+ * page's lines the code's line has so many. */
+static double code_letter(const struct reader_pages_setup *setup, int letters, int *lines)
+{
+    char markdown[600] = "> - ```\n>   a\n>   ";
+    for (int i = 0; i < letters; i++)
+        strcat(markdown, "x");
+    strcat(markdown, "   \n>   \xe4\xb8\xad\n>   ```\n\nafter\n");
+    struct made m = make(markdown, setup);
+    struct seen s = look(&m, 0);
+    const struct font_placed *first = glyph_of(&s, "xx"), *wide = glyph_of(&s, "\xe4\xb8\xad");
+    const double letter = first[1].x_px - first->x_px,
+                 right = setup->width_px - setup->margin_px;
+    *lines = 1;
+    for (int i = 1; i < letters; i++) {
+        assert_true(first[i].x_px + letter <= right - 1.5 * setup->size_px + 0.01);
+        *lines += first[i].y_px > first[i - 1].y_px;
+    }
+    assert_true(wide->y_px > first[letters - 1].y_px);
+    seen_finish(&s);
+    made_finish(&m);
+    return letter;
+}
+
+/* All of a block of code is as much smaller as its widest line needs; where that would be too
+ * small to be read it is as large as other code, and broken. */
+static void wide_code_is_made_smaller(void **state)
+{
+    enum { FITS = 30, MOST = 120 };
+    const double step = 0.05, least = 0.6;
+    struct reader_pages_setup setup = plain_setup();
+    int lines, fewest = 0, broken = 0;
+    (void)state;
+    const double usual = code_letter(&setup, FITS, &lines);
+    assert_int_equal(lines, 1);
+    const double room = setup.width_px - 2 * setup.margin_px - (3 * 1.5 + 1) * 12;
+    for (int letters = FITS; letters < MOST && broken < 3; letters++) {
+        const double letter = code_letter(&setup, letters, &lines);
+        if (lines > 1) {
+            assert_true(fabs(letter - usual) < 0.001);
+            assert_true(usual * least * letters > room);
+            broken++;
+            continue;
+        }
+        assert_int_equal(broken, 0);
+        assert_true(letter > least * usual - 0.001);
+        if (letter > usual - 0.001)
+            continue;
+        assert_true((letter + step * usual) * letters > room - 0.01); /* no smaller */
+        fewest = fewest ? fewest : letters;
+    }
+    assert_true(fewest > FITS && broken == 3);
+    setup.width_px *= 2; /* there it has room */
+    assert_true(fabs(code_letter(&setup, fewest, &lines) - usual) < 0.001);
+}
+
 /* A formula on its own line that is too wide is set smaller, and stays in its column. */
 static void wide_formulas_are_made_smaller(void **state)
 {
@@ -344,6 +400,7 @@ int main(void)
         cmocka_unit_test(all_kinds_of_blocks_are_said),
         cmocka_unit_test(notes_stand_where_they_are_called),
         cmocka_unit_test(tables_have_columns_or_are_told),
+        cmocka_unit_test(wide_code_is_made_smaller),
         cmocka_unit_test(wide_formulas_are_made_smaller),
         cmocka_unit_test(pictures_are_shown),
         cmocka_unit_test(numbers_are_said),
