@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 enum { LINE_BYTES = 1000, WORDS_MAX = 64, PIECES_MAX = 64, NAME_BYTES = 64 };
-static const char begins[] = "-- stage: ";
+static const char begins[] = "-- stage: ", loops[] = "-- loop: ";
 
 /* What a piece may say of its beginning: nothing that names a file. */
 static const char *const allowed[] = {"--preset", "--set",     "--at",    "--turn",
@@ -29,6 +29,7 @@ struct piece {
     char line[LINE_BYTES];  /* how it begins; its words are separated by zeros */
     char *words[WORDS_MAX];
     int count;
+    double settle_s, loop_s; /* what --loop takes of it, and after how long; 0: not said */
 };
 
 /* ---- a piece ---- */
@@ -96,22 +97,41 @@ static int beginning_check(const struct piece *p)
     return EXIT_SUCCESS;
 }
 
+/* `--settle S --seconds S`: from when on, and in how long, its motion comes back. */
+static int loop_read(struct piece *p, const char *line)
+{
+    char more;
+    return sscanf(line, "--settle %lf --seconds %lf %c", &p->settle_s, &p->loop_s, &more) ==
+                       2 &&
+                   p->settle_s >= 0 && p->settle_s <= 3600 && p->loop_s > 0 && p->loop_s <= 3600
+               ? EXIT_SUCCESS
+               : fail("stage",
+                      "%s: must be `%s--settle 0..3600 --seconds 0..3600` (got '%.60s')",
+                      p->path, loops, line);
+}
+
 /* Reads the comment lines that a piece begins with. */
 static int piece_read(struct piece *p)
 {
     char line[LINE_BYTES];
     const char *why;
     FILE *file = input_file_open(p->path, &why);
+    int status = EXIT_SUCCESS;
     if (!file)
         return fail("stage", "%s: cannot read: %s", p->path, why);
-    while (fgets(line, sizeof line, file) && strncmp(line, "--", 2) == 0) {
+    while (status == EXIT_SUCCESS && fgets(line, sizeof line, file) &&
+           strncmp(line, "--", 2) == 0) {
         line[strcspn(line, "\r\n")] = '\0';
         if (strncmp(line, begins, sizeof begins - 1) == 0)
             memcpy(p->line, line + sizeof begins - 1, strlen(line + sizeof begins - 1) + 1);
+        else if (strncmp(line, loops, sizeof loops - 1) == 0)
+            status = loop_read(p, line + sizeof loops - 1);
         else if (!p->about[0])
             snprintf(p->about, sizeof p->about, "%s", line + 2 + (line[2] == ' '));
     }
     fclose(file);
+    if (status != EXIT_SUCCESS)
+        return status;
     p->count = 0;
     if (!words_split(p, p->line))
         return fail("stage", "%s: its line `%s` has an open quote, or too many words", p->path,
@@ -200,12 +220,21 @@ static int print(const struct piece *p)
     return EXIT_SUCCESS;
 }
 
+static bool has_option(int argc, char **argv, const char *name)
+{
+    const size_t length = strlen(name);
+    for (int i = 0; i < argc; i++)
+        if (!strncmp(argv[i], name, length) && (!argv[i][length] || argv[i][length] == '='))
+            return true;
+    return false;
+}
+
 /* As `lutetia spring WORDS ... --map PIECE` with what else the command line has. How long the
  * piece lasts is for films alone: a window has no end. */
 static int play(struct piece *p, int argc, char **argv)
 {
-    static char map[] = "--map";
-    char **line = calloc((size_t)p->count + (size_t)argc + 3, sizeof *line);
+    static char map[] = "--map", settle[] = "--settle", settle_s[32];
+    char **line = calloc((size_t)p->count + (size_t)argc + 5, sizeof *line);
     int count = 0;
     double seconds = 5;
     if (!line)
@@ -225,6 +254,12 @@ static int play(struct piece *p, int argc, char **argv)
     }
     line[count++] = map;
     line[count++] = p->path;
+    if (p->loop_s > 0 && has_option(argc, argv, "--loop")) {
+        seconds = p->loop_s;
+        snprintf(settle_s, sizeof settle_s, "%g", p->settle_s);
+        line[count++] = settle; /* one in the command line comes after it, and counts */
+        line[count++] = settle_s;
+    }
     for (int i = 0; i < argc; i++)
         line[count++] = argv[i];
     const int status = verb_spring_lasting(count, line, seconds);
