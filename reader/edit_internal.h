@@ -28,6 +28,11 @@ void edit_lines_find(const struct reader_bytes *source, int first, int last, int
 enum { EDIT_PREFIX_BYTES = 256 };
 int edit_prefix(const char *text, int at, int end, char *next, char *more);
 
+/* A link whose words are its name, [words] or [words][], in lines first..last of a text: what
+ * stands in place of bytes end..*behind where bytes begin..end of its words change and it leads
+ * where it led, words][name]. NULL: there is none, or no memory. Owns: the caller frees it. */
+char *edit_link_name(const char *text, int first, int last, int begin, int end, int *behind);
+
 /* A change of one source. */
 struct edit_splice {
     int source;

@@ -67,12 +67,20 @@ static int item_sign(const char *s, int at, int end, int *number_end)
     return k;
 }
 
-/* Behind a task's box. */
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+/* Behind a task's box and the blanks that it has. */
 static int task_box(const char *s, int at, int end)
 {
-    const bool box = at + 3 < end && s[at] == '[' && strchr(" xX", s[at + 1]) &&
-                     s[at + 2] == ']' && s[at + 3] == ' ';
-    return box ? at + 4 : at;
+    if (at + 3 >= end || s[at] != '[' || !strchr(" xX", s[at + 1]) || s[at + 2] != ']' ||
+        !is_blank(s[at + 3]))
+        return at;
+    for (at += 4; at < end && is_blank(s[at]);)
+        at++;
+    return at;
 }
 
 static void text_join(char *to, const char *text, int bytes)
@@ -137,11 +145,6 @@ static bool byte_keep(struct walk *w, int begin, int end)
     return true;
 }
 
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\t';
-}
-
 /* Behind the line's end, and the signs of quotes and blanks that the next one begins with;
  * -1: no line ends there. */
 static int line_behind(const struct walk *w, int at)
@@ -160,10 +163,26 @@ static int line_behind(const struct walk *w, int at)
     return at;
 }
 
+/* Behind a tag that ends a line, and the blanks and line's end that are no more than it; `at`:
+ * there is none. */
+static int break_behind(const struct walk *w, int at)
+{
+    int behind = (int)(reader_tag_break(w->s + at) - w->s);
+    if (behind == at || behind > w->end)
+        return at;
+    const int line = line_behind(w, behind);
+    while (behind < w->end && is_blank(w->s[behind]))
+        behind++;
+    return line >= 0 ? line : behind;
+}
+
 static bool blank_take(struct walk *w, char c)
 {
     const int from = w->at;
     int behind = line_behind(w, from);
+    const int tag = break_behind(w, from);
+    if (tag > from && c != '\t')
+        return byte_keep(w, from, tag);
     if (c == '\t') { /* the border of two cells */
         int k = from;
         while (k < w->end && is_blank(w->s[k]))

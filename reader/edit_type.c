@@ -122,10 +122,11 @@ static enum reader_status try_bytes(struct reader_edit *e, int source, int begin
     return status == READER_TOO_LARGE || status == READER_NO_MEMORY ? status : READER_OK;
 }
 
-/* One of the places begin, other, with the letters written in each way. lead: before them. */
+/* Bytes begin..end of the source become the letters, written in each way. lead, tail: before
+ * and behind them. */
 static enum reader_status letters_try(struct reader_edit *e, const struct spot *s, int begin,
                                       int end, const char *lead, const char *utf8, size_t bytes,
-                                      const struct edit_meant *meant,
+                                      const char *tail, const struct edit_meant *meant,
                                       struct reader_edit_change *change, bool *done)
 {
     char line[EDIT_PREFIX_BYTES] = "";
@@ -137,12 +138,12 @@ static enum reader_status letters_try(struct reader_edit *e, const struct spot *
     for (int how = AS_TYPED; how < ways && !*done && status == READER_OK; how++) {
         size_t written;
         char *text = write_as(utf8, bytes, (enum written)how, line, &written), *all = NULL;
-        if (!text || asprintf(&all, "%s%s", lead, text) < 0) {
+        if (!text || asprintf(&all, "%s%s%s", lead, text, tail) < 0) {
             free(text);
             return reader_fail(READER_NO_MEMORY, "no memory for an edit");
         }
-        status =
-            try_bytes(e, source, begin, end, all, strlen(lead) + written, meant, change, done);
+        status = try_bytes(e, source, begin, end, all, strlen(lead) + written + strlen(tail),
+                           meant, change, done);
         free(text);
         free(all);
     }
@@ -211,7 +212,23 @@ static enum reader_status empty_typed(struct reader_edit *e, const char *utf8, s
     const int end = e->files->count ? (int)e->files->texts[0].bytes : -1;
     const struct edit_meant meant = {
         .text = utf8, .bytes = bytes, .caret = bytes, .typed = true};
-    return letters_try(e, &none, end, end, "", utf8, bytes, &meant, change, done);
+    return letters_try(e, &none, end, end, "", utf8, bytes, "", &meant, change, done);
+}
+
+/* Among the words of a link that is called by them: it gets its name. */
+static enum reader_status named_try(struct reader_edit *e, const struct spot *s, int begin,
+                                    int end, const char *lead, const char *utf8, size_t bytes,
+                                    const struct edit_meant *meant,
+                                    struct reader_edit_change *change, bool *done)
+{
+    int behind;
+    char *tail =
+        edit_link_name(s->source->text, s->map.first, s->map.last, begin, end, &behind);
+    const enum reader_status status =
+        tail ? letters_try(e, s, begin, behind, lead, utf8, bytes, tail, meant, change, done)
+             : READER_OK;
+    free(tail);
+    return status;
 }
 
 /* In place of begin..end of the spot's block: those letters; lead, and as it is read: what
@@ -242,8 +259,11 @@ static enum reader_status typed_try(struct reader_edit *e, struct spot *s, size_
     enum reader_status status = READER_OK;
     for (int i = 0; i < 2 && !*done && status == READER_OK; i++) {
         const int to = begin == end ? from[i] : place_behind(s, q);
-        status = letters_try(e, s, from[i], to, lead, utf8, bytes, &meant, change, done);
+        status = letters_try(e, s, from[i], to, lead, utf8, bytes, "", &meant, change, done);
     }
+    for (int i = 0; i < 2 && !*done && status == READER_OK; i++)
+        status = named_try(e, s, from[i], begin == end ? from[i] : place_behind(s, q), lead,
+                           utf8, bytes, &meant, change, done);
     free(read);
     return status;
 }
@@ -402,6 +422,14 @@ static enum reader_status within_try(struct reader_edit *e, const struct spot *s
     free(between);
     if (status == READER_OK)
         status = try_bytes(e, source, first, last, "", 0, meant, change, done);
+    int behind;
+    char *named =
+        *done || status != READER_OK
+            ? NULL
+            : edit_link_name(s->source->text, s->map.first, s->map.last, first, last, &behind);
+    if (named)
+        status = try_bytes(e, source, first, behind, named, strlen(named), meant, change, done);
+    free(named);
     return status;
 }
 

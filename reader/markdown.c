@@ -23,6 +23,8 @@ struct walk {
     int lists_count, lists_capacity;
     int notes_before; /* of other sources */
     int labels;       /* whose tags are open */
+    int ends;         /* lines that tags have ended, before the next letter */
+    unsigned ends_look;
     cmark_node *table;
 };
 
@@ -115,20 +117,6 @@ static void code_read(struct walk *w, cmark_node *node)
     reader_block_close(&w->b);
 }
 
-/* The name in <a id="NAME">, a tag that says nothing else, and its length; NULL: it is none. */
-static const char *label_find(const char *tag, size_t *bytes)
-{
-    const char *at = strncmp(tag, "<a ", 3) == 0 ? tag + 3 + strspn(tag + 3, " \n") : "";
-    at += strncmp(at, "id=", 3) == 0 ? 3 : strncmp(at, "name=", 5) == 0 ? 5 : strlen(at);
-    const char quote = *at == '"' || *at == '\'' ? *at++ : '\0';
-    *bytes = strcspn(at, " \t\n\"'<>=`#");
-    const char *end = at + *bytes;
-    if (quote && *end++ != quote)
-        return NULL;
-    end += strspn(end, " \n");
-    return *bytes >= 1 && *bytes <= READER_LABEL_BYTES && strcmp(end, ">") == 0 ? at : NULL;
-}
-
 static bool is_html(cmark_node *node)
 {
     return cmark.node_get_type(node) == CMARK_NODE_HTML_INLINE;
@@ -139,7 +127,7 @@ static bool label_read(struct walk *w, const char *tag)
 {
     const struct reader_document *d = w->b.document;
     size_t bytes;
-    const char *name = label_find(tag, &bytes);
+    const char *name = reader_tag_label(tag, &bytes);
     if (w->labels && strcmp(tag, "</a>") == 0) {
         w->labels--;
         return true;
@@ -159,7 +147,7 @@ static cmark_node *picture_of(const struct walk *w, cmark_node *paragraph)
     bool open = false; /* a label's tag */
     while (child && !w->b.in_note) {
         const bool html = is_html(child),
-                   begins = html && label_find(cmark.node_get_literal(child), &bytes),
+                   begins = html && reader_tag_label(cmark.node_get_literal(child), &bytes),
                    ends = html && open && strcmp(cmark.node_get_literal(child), "</a>") == 0;
         if (!begins && !ends && cmark.node_get_type(child) != CMARK_NODE_SOFTBREAK)
             break;
@@ -194,9 +182,20 @@ static const char *comments_skip(const char *text)
     return text;
 }
 
+static bool only_breaks(const char *text)
+{
+    for (const char *at = NULL; at != text;) {
+        at = text;
+        text = reader_tag_break(text + strspn(text, " \t\n"));
+    }
+    return !*text;
+}
+
 static void html_read(struct walk *w, cmark_node *node)
 {
     const char *text = cmark.node_get_literal(node);
+    if (text && only_breaks(text))
+        return;
     if (text && strncmp(text, "<!--", 4) == 0) {
         text = comments_skip(text);
         if (!*text)
@@ -314,14 +313,29 @@ static void picture_enter(struct walk *w, cmark_node *node)
         w->link = cmark.node_get_url(node);
 }
 
+/* Tags have ended lines before the letter that comes now; none at a text's ends. */
+static void ends_add(struct walk *w)
+{
+    struct reader_builder *b = &w->b;
+    for (; w->ends; w->ends--)
+        if (b->block.bytes)
+            reader_text_add(b, b->block.kind == READER_ROW ? " " : "\n", w->ends_look, w->link);
+}
+
 static void inline_enter(struct walk *w, cmark_node *node)
 {
     struct reader_builder *b = &w->b;
     cmark_node_type type = cmark.node_get_type(node);
     const char *text = cmark.node_get_literal(node);
+    if (type == CMARK_NODE_HTML_INLINE && reader_tag_break(text) != text) {
+        w->ends_look = w->ends++ ? w->ends_look : look_of(w);
+        return;
+    }
+    if (text || type == CMARK_NODE_LINEBREAK)
+        ends_add(w);
     if (type == CMARK_NODE_TEXT)
         reader_text_add(b, text, look_of(w), w->link);
-    else if (type == CMARK_NODE_SOFTBREAK)
+    else if (type == CMARK_NODE_SOFTBREAK && !w->ends)
         reader_text_add(b, " ", look_of(w), w->link);
     else if (type == CMARK_NODE_LINEBREAK)
         reader_text_add(b, b->block.kind == READER_ROW ? " " : "\n", look_of(w), w->link);
@@ -380,6 +394,7 @@ static bool table_enter(struct walk *w, cmark_node *node)
 static void block_enter(struct walk *w, cmark_node *node)
 {
     cmark_node_type type = cmark.node_get_type(node);
+    w->ends = 0;
     if (table_enter(w, node))
         return;
     w->labels = 0;

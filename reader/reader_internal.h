@@ -16,6 +16,13 @@ extern _Thread_local struct error_text reader_last_error;
 /* Whether cmark-gfm is to read it. Errors: TOO_LARGE, with the line. */
 enum reader_status reader_guard_check(const char *source, int bytes);
 
+/* ---- tag.c ---- */
+
+/* The name in <a id="NAME">, a tag that says nothing else, and its length; NULL: it is none. */
+const char *reader_tag_label(const char *tag, size_t *bytes);
+/* Behind a <br> that the text begins with, which ends a line; the text: there is none. */
+const char *reader_tag_break(const char *text);
+
 /* ---- bibliography.c ---- */
 
 /* Sorts the entries of each file's bibliography, the list that has that label or stands under a
