@@ -128,6 +128,18 @@ static void note_call(struct html *h, const struct reader_span *span, const char
     fputs(span->note >= 0 ? "</a></sup>" : "</sup>", h->f);
 }
 
+/* Lines that end in a text end in a browser, too; those of code do without a tag. */
+static void lines_put(struct html *h, const char *text, int bytes, bool in_code)
+{
+    const char *const end = text + bytes;
+    for (const char *next; !in_code && (next = memchr(text, '\n', (size_t)(end - text)));
+         text = next + 1) {
+        html_put(h, text, (size_t)(next - text));
+        fputs("<br>\n", h->f);
+    }
+    html_put(h, text, (size_t)(end - text));
+}
+
 /* Letters of one span, all marked or none. */
 static void piece_put(struct html *h, const struct reader_block *block,
                       const struct reader_span *span, int from, int to)
@@ -148,7 +160,7 @@ static void piece_put(struct html *h, const struct reader_block *block,
             if (look & tags[i].look)
                 fputs(tags[i].begin, h->f);
         if (!(look & READER_FORMULA) || !html_formula_put(h, text + from, to - from, false))
-            html_put(h, text + from, (size_t)(to - from));
+            lines_put(h, text + from, to - from, in_code);
         for (int i = TAGS - 1; i >= 0; i--)
             if (look & tags[i].look)
                 fputs(tags[i].end, h->f);

@@ -39,7 +39,7 @@ static inline const char *html_attributes(const char *at, bool *closed)
 /* NULL: all is well; else from where it is not. */
 static inline const char *html_wrong(const char *html)
 {
-    static const char *const void_tags[] = {"meta", "img", "hr", NULL};
+    static const char *const void_tags[] = {"meta", "img", "hr", "br", NULL};
     char open[HTML_DEEP][HTML_NAME];
     int deep = 0;
     const char *at = html;

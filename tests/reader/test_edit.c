@@ -50,77 +50,76 @@ static const char *edit_at(struct edited *e, const char *at, const char *type, i
     return e->files.texts[0].text;
 }
 
+static const struct {
+    const char *source, *at, *type;
+    int back;
+    const char *becomes;
+} typing[] = {
+    {"A word.\n", "A |word", "b", 0, "A bword.\n"},
+    {"A word.\n", "word.|", " more", 0, "A word. more\n"},
+    {"A **word**.\n", "word|", "s", 0, "A **words**.\n"},
+    {"A **word**.\n", "A |word", "s", 0, "A s**word**.\n"},
+    {"A [word](x.md).\n", "word|", "s", 0, "A [word](x.md)s.\n"},
+    {"A [word](x.md).\n", "wor|d", "s", 0, "A [worsd](x.md).\n"},
+    {"A *b.\n", "*b|", "*", 0, "A *b\\*.\n"},
+    {"Word\n", "|Word", "# ", 0, "#&#32;Word\n"},
+    {"Word\n", "|Word", "-", 0, "-Word\n"},
+    {"1 a\n", "1| a", ".", 0, "1\\. a\n"},
+    {"a b\nc d\n", "b |c", "x", 0, "a b\nxc d\n"},
+    {"> a b\n> c d\n", "b |c", "x", 0, "> a b\n> xc d\n"},
+    {"a &amp; b\n", "&| b", "x", 0, "a &amp;x b\n"},
+    {"a \\* b\n", "*| b", "x", 0, "a \\*x b\n"},
+    {"a `b` c\n", "b|", "x", 0, "a `bx` c\n"},
+    {"a[^1] b\n\n[^1]: note\n", "no|te", "x", 0, "a[^1] b\n\n[^1]: noxte\n"},
+    {"| a | b |\n|---|---|\n| c | d |\n", "|c\td", "x", 0,
+     "| a | b |\n|---|---|\n| xc | d |\n"},
+    {"| a | b |\n|---|---|\n| c | d |\n", "c|\td", "|", 0,
+     "| a | b |\n|---|---|\n| c\\| | d |\n"},
+    {"# Head\n\nText\n", "Hea|d", "x", 0, "# Heaxd\n\nText\n"},
+    {"```c\nint a;\n```\n", "int |a", "*", 0, "```c\nint *a;\n```\n"},
+    {"- x\n\n  ```c\n  int a;\n  ```\n", "a;|", "\nb", 0,
+     "- x\n\n  ```c\n  int a;\n  b\n  ```\n"},
+    {"one two\n", "one| two", "\n", 0, "one\n\ntwo\n"},
+    {"one\n\ntwo\n", "one|", "\nx", 0, "one\n\nx\n\ntwo\n"},
+    {"- one\n- two\n", "one|", "\nx", 0, "- one\n- x\n- two\n"},
+    {"- one\n- two\n", "two|", "\n\nx", 0, "- one\n- two\n\nx\n"},
+    {"1. one\n", "one|", "\nx", 0, "1. one\n2. x\n"},
+    {"- [x] one\n", "one|", "\ny", 0, "- [x] one\n- [ ] y\n"},
+    {"> one two\n", "one| two", "\n", 0, "> one\n>\n> two\n"},
+    {"A **word** b\n", "word| b", "", 4, "A  b\n"},
+    {"A word b\n", "word|", "", 4, "A  b\n"},
+    {"A word\n", "word|", "", 4, "A\n"},
+    {"A word\n", "word|", "b", 4, "A b\n"},
+    {"A<br>\nword\n", "|word", "b", 0, "A<br>\nbword\n"},
+    {"A<br>\nword\n", "A|", "b", 0, "Ab<br>\nword\n"},
+    {"A <br/> *word*\n", "|word", "", 1, "A *word*\n"},
+    {"* [ ]  text\n", "|text", "b", 0, "* [ ]  btext\n"},
+    {"- [x] \ttext\n", "text|", "\ny", 0, "- [x] \ttext\n- [ ] y\n"},
+    {"A [word][] b\n\n[word]: c.md\n", "wo|rd", "x", 0, "A [woxrd][word] b\n\n[word]: c.md\n"},
+    {"A [word] b\n\n[word]: c.md\n", "wor|d", "", 2, "A [wd][word] b\n\n[word]: c.md\n"},
+    {"A [word] b\n\n[word]: c.md\n", "wor|d", "*", 0, "A [wor*d][word] b\n\n[word]: c.md\n"},
+    {"A [word][w] b\n\n[w]: c.md\n", "wor|d", "x", 0, "A [worxd][w] b\n\n[w]: c.md\n"},
+    {"A [*word* b]\n\n[*word* b]: c.md\n", "wor|d", "x", 0,
+     "A [*worxd* b][*word* b]\n\n[*word* b]: c.md\n"},
+    {"A word\n", "A|", "<br>", 0, "A<br\\> word\n"},
+};
+
 static void typed_letters_are_written(void **state)
 {
-    static const struct {
-        const char *source, *at, *type;
-        int back;
-        const char *becomes;
-    } cases[] = {
-        {"A word.\n", "A |word", "b", 0, "A bword.\n"},
-        {"A word.\n", "word.|", " more", 0, "A word. more\n"},
-        {"A **word**.\n", "word|", "s", 0, "A **words**.\n"},
-        {"A **word**.\n", "A |word", "s", 0, "A s**word**.\n"},
-        {"A [word](x.md).\n", "word|", "s", 0, "A [word](x.md)s.\n"},
-        {"A [word](x.md).\n", "wor|d", "s", 0, "A [worsd](x.md).\n"},
-        {"A *b.\n", "*b|", "*", 0, "A *b\\*.\n"},
-        {"Word\n", "|Word", "# ", 0, "#&#32;Word\n"},
-        {"Word\n", "|Word", "-", 0, "-Word\n"},
-        {"1 a\n", "1| a", ".", 0, "1\\. a\n"},
-        {"a b\nc d\n", "b |c", "x", 0, "a b\nxc d\n"},
-        {"> a b\n> c d\n", "b |c", "x", 0, "> a b\n> xc d\n"},
-        {"a &amp; b\n", "&| b", "x", 0, "a &amp;x b\n"},
-        {"a \\* b\n", "*| b", "x", 0, "a \\*x b\n"},
-        {"a `b` c\n", "b|", "x", 0, "a `bx` c\n"},
-        {"a[^1] b\n\n[^1]: note\n", "no|te", "x", 0, "a[^1] b\n\n[^1]: noxte\n"},
-        {"| a | b |\n|---|---|\n| c | d |\n", "|c\td", "x", 0,
-         "| a | b |\n|---|---|\n| xc | d |\n"},
-        {"| a | b |\n|---|---|\n| c | d |\n", "c|\td", "|", 0,
-         "| a | b |\n|---|---|\n| c\\| | d |\n"},
-        {"# Head\n\nText\n", "Hea|d", "x", 0, "# Heaxd\n\nText\n"},
-        {"```c\nint a;\n```\n", "int |a", "*", 0, "```c\nint *a;\n```\n"},
-        {"- x\n\n  ```c\n  int a;\n  ```\n", "a;|", "\nb", 0,
-         "- x\n\n  ```c\n  int a;\n  b\n  ```\n"},
-        {"one two\n", "one| two", "\n", 0, "one\n\ntwo\n"},
-        {"one\n\ntwo\n", "one|", "\nx", 0, "one\n\nx\n\ntwo\n"},
-        {"- one\n- two\n", "one|", "\nx", 0, "- one\n- x\n- two\n"},
-        {"- one\n- two\n", "two|", "\n\nx", 0, "- one\n- two\n\nx\n"},
-        {"1. one\n", "one|", "\nx", 0, "1. one\n2. x\n"},
-        {"- [x] one\n", "one|", "\ny", 0, "- [x] one\n- [ ] y\n"},
-        {"> one two\n", "one| two", "\n", 0, "> one\n>\n> two\n"},
-        {"A **word** b\n", "word| b", "", 4, "A  b\n"},
-        {"A word b\n", "word|", "", 4, "A  b\n"},
-        {"A word\n", "word|", "", 4, "A\n"},
-        {"A word\n", "word|", "b", 4, "A b\n"},
-        {"A<br>\nword\n", "|word", "b", 0, "A<br>\nbword\n"},
-        {"A<br>\nword\n", "A|", "b", 0, "Ab<br>\nword\n"},
-        {"A <br/> *word*\n", "|word", "", 1, "A *word*\n"},
-        {"* [ ]  text\n", "|text", "b", 0, "* [ ]  btext\n"},
-        {"- [x] \ttext\n", "text|", "\ny", 0, "- [x] \ttext\n- [ ] y\n"},
-        {"A [word][] b\n\n[word]: c.md\n", "wo|rd", "x", 0,
-         "A [woxrd][word] b\n\n[word]: c.md\n"},
-        {"A [word] b\n\n[word]: c.md\n", "wor|d", "", 2, "A [wd][word] b\n\n[word]: c.md\n"},
-        {"A [word] b\n\n[word]: c.md\n", "wor|d", "*", 0,
-         "A [wor*d][word] b\n\n[word]: c.md\n"},
-        {"A [word][w] b\n\n[w]: c.md\n", "wor|d", "x", 0, "A [worxd][w] b\n\n[w]: c.md\n"},
-        {"A [*word* b]\n\n[*word* b]: c.md\n", "wor|d", "x", 0,
-         "A [*worxd* b][*word* b]\n\n[*word* b]: c.md\n"},
-        {"A word\n", "A|", "<br>", 0, "A<br\\> word\n"},
-    };
     (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof typing / sizeof *typing; i++) {
         struct edited e;
-        edited_begin(&e, cases[i].source, NULL);
-        const char *now = edit_at(&e, cases[i].at, cases[i].type, cases[i].back);
-        if (strcmp(now, cases[i].becomes) != 0)
-            print_message("case %zu: %s", i, cases[i].source);
-        assert_string_equal(now, cases[i].becomes);
+        edited_begin(&e, typing[i].source, NULL);
+        const char *now = edit_at(&e, typing[i].at, typing[i].type, typing[i].back);
+        if (strcmp(now, typing[i].becomes) != 0)
+            print_message("case %zu: %s", i, typing[i].source);
+        assert_string_equal(now, typing[i].becomes);
         struct reader_edit_change change;
         while (reader_edit_can(e.edit, false)) {
             assert_int_equal(reader_edit_undo(e.edit, false, &change), READER_OK);
             reader_edit_change_finish(&change);
         }
-        assert_string_equal(e.files.texts[0].text, cases[i].source);
+        assert_string_equal(e.files.texts[0].text, typing[i].source);
         as_from_scratch(&e);
         edited_end(&e);
     }
