@@ -120,7 +120,7 @@ static bool is_above(const struct dyn_network *n, const struct dyn_letter *lette
 
 /* The line from which a letter's upper corner hangs: the nearest above that has something over
  * it, so that what is below a short line hangs from the one before, and not in a fan from the
- * short line's end. Where none has, it is the nearest. -1: there is none. */
+ * short line's end. -1: none has. */
 static int line_over(const struct dyn_word *word, const struct dyn_network *n,
                      const struct dyn_letter *letter, int mass)
 {
@@ -128,7 +128,7 @@ static int line_over(const struct dyn_word *word, const struct dyn_network *n,
         if (word->letters[i].line < letter->line &&
             is_above(n, letter, mass, &word->letters[i]))
             return word->letters[i].line;
-    return line_above(word, letter->line);
+    return -1;
 }
 
 /* Whether springs go across the gaps between letters, and those between lines. */
@@ -144,13 +144,16 @@ static bool lines_are_crossed(const struct dyn_word *word)
 }
 
 /* Each upper corner of a letter hangs from the nearest corner above; and, where springs are
- * crossed, from the one that is nearest to the letter's other upper corner. */
+ * crossed, from the one that is nearest to the letter's other upper corner. What juts out
+ * beyond all lines above is held by its own line. A line that has nothing over it at all,
+ * `alone`, hangs from the nearest line. */
 static enum dyn_status hang_springs(struct dyn_word *word, struct dyn_network *n,
-                                    const struct dyn_letter *letter)
+                                    const struct dyn_letter *letter, bool alone)
 {
     enum dyn_status status = DYN_OK;
     for (int k = 3; k >= 2 && status == DYN_OK; k--) {
-        const int above = line_over(word, n, letter, letter->mass[k]);
+        const int above = alone ? line_above(word, letter->line)
+                                : line_over(word, n, letter, letter->mass[k]);
         if (above < 0)
             continue;
         const int corner = lower_corner(word, n, above, letter->mass[k], -1),
@@ -159,6 +162,24 @@ static enum dyn_status hang_springs(struct dyn_word *word, struct dyn_network *n
         if (status == DYN_OK && lines_are_crossed(word))
             status = spring_add(word, n, DYN_HANG_BRACE, across, letter->mass[k]);
     }
+    return status;
+}
+
+/* The letters of a line, which begins with that one, hang from what is over them. Returns the
+ * first letter of the next line in *next. */
+static enum dyn_status line_hang(struct dyn_word *word, struct dyn_network *n, int first,
+                                 int *next)
+{
+    const int line = word->letters[first].line;
+    enum dyn_status status = DYN_OK;
+    bool alone = true;
+    int end = first;
+    for (; end < word->letters_count && word->letters[end].line == line; end++)
+        for (int k = 2; k <= 3 && alone; k++)
+            alone = line_over(word, n, &word->letters[end], word->letters[end].mass[k]) < 0;
+    for (int i = first; i < end && status == DYN_OK; i++)
+        status = hang_springs(word, n, &word->letters[i], alone);
+    *next = end;
     return status;
 }
 
@@ -181,8 +202,8 @@ static enum dyn_status springs_make(struct dyn_word *word, struct dyn_network *n
                     spring_add(word, n, DYN_LINK_BRACE, a->mass[1 + k], b->mass[k ? 0 : 3]);
         }
     }
-    for (int i = 0; i < word->letters_count && status == DYN_OK; i++) {
-        status = hang_springs(word, n, &word->letters[i]);
+    for (int i = 0; i < word->letters_count && status == DYN_OK;) {
+        status = line_hang(word, n, i, &i);
         if (status == DYN_OK && patience_over())
             status = dyn_fail(DYN_NO_MEMORY, "stopped");
     }

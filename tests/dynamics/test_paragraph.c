@@ -248,7 +248,7 @@ static void crossed_paragraph_has_springs_across(void **state)
     struct dyn_word_def def = dyn_word_def_usual();
     struct dyn_network *n;
     struct dyn_word *word;
-    def.text = "wet paper\n\nand springs\ni";
+    def.text = "wet papers\n\nand springs\ni";
     def.shaper = shapers[0];
     def.style.brace = DYN_BRACE_CROSSED;
     def.style.carry = 2;
@@ -270,12 +270,50 @@ static void crossed_paragraph_has_springs_across(void **state)
             assert_near(s.constant,
                         5 * (part == DYN_LINK_BRACE ? def.style.link : def.style.hang), 1e-9);
     }
-    assert_int_equal(of_part[DYN_LINK], 2 * (7 + 9));
-    assert_int_equal(of_part[DYN_LINK_BRACE], 2 * (7 + 9));
+    assert_int_equal(of_part[DYN_LINK], 2 * (8 + 9));
+    assert_int_equal(of_part[DYN_LINK_BRACE], 2 * (8 + 9));
     assert_int_equal(of_part[DYN_HANG], 2 * (10 + 1));
     assert_int_equal(of_part[DYN_HANG_BRACE], 2 * (10 + 1));
     dyn_word_destroy(word);
     dyn_network_destroy(n);
+}
+
+/* Where a line juts out beyond all lines above it, its own links hold it: nothing spreads from
+ * the end of a line above like a fan. A line that has nothing over it hangs all the same. */
+static void long_lines_hang_from_what_is_over_them(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double most; /* of what a line hangs from, ems */
+        int least, all;
+    } cases[] = {{"a word\nthen one line that is much longer than all above", 2, 10, 80},
+                 {"I\nam\na paragraph whose third line is longer\nend", 2, 10, 90},
+                 {"ab\n\nabcdefghijklmnopqrstuvw", 3, 4, 46},
+                 {"a\n                    abc", 11, 6, 6}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++)
+        for (int brace = DYN_BRACE_NONE; brace <= DYN_BRACE_LINES; brace++) {
+            struct dyn_word_def def = dyn_word_def_usual();
+            struct dyn_network *n;
+            struct dyn_word *word;
+            int hang = 0;
+            def.text = cases[c].text;
+            def.shaper = shapers[0];
+            def.style.brace = brace;
+            scene_must(dyn_network_create(&n));
+            scene_must(dyn_word_create(n, &def, &word));
+            const struct dyn_word_range range = dyn_word_range(word);
+            for (int i = 0; i < range.springs_count; i++) {
+                const enum dyn_part part = dyn_word_part(word, i);
+                const struct dyn_spring s = dyn_spring_get(n, range.first_spring + i);
+                hang += part == DYN_HANG;
+                if (part == DYN_HANG || part == DYN_HANG_BRACE)
+                    assert_true(s.rest_length < cases[c].most);
+            }
+            assert_in_range(hang, cases[c].least, cases[c].all - (cases[c].all > 6));
+            dyn_word_destroy(word);
+            dyn_network_destroy(n);
+        }
 }
 
 /* How many springs across the gaps between letters, and between lines, a text has. */
@@ -324,6 +362,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(crossed_paragraph_has_springs_across),
+        cmocka_unit_test(long_lines_hang_from_what_is_over_them),
         cmocka_unit_test(words_alone_are_chains),
         cmocka_unit_test(stiff_texts_stay_blocks),
         cmocka_unit_test(jelly_texts_keep_their_shape),
