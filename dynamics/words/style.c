@@ -121,14 +121,6 @@ enum dyn_status dyn_preset_apply(const char *name, struct dyn_word_style *style,
     return dyn_fail(DYN_BAD_ARGUMENT, "there is no preset '%.40s'; there are%s", name, all);
 }
 
-void dyn_preset_fit(const char *name, int letters, struct dyn_word_style *style)
-{
-    enum { LETTERS = 9 };
-    const double part = (double)letters / LETTERS;
-    if (dyn_preset_collides(name) && letters < LETTERS)
-        style->link *= part * part;
-}
-
 bool dyn_preset_collides(const char *name)
 {
     for (int i = 0; i < dyn_presets_count; i++)

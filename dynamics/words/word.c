@@ -23,6 +23,40 @@ void dyn_word_destroy(struct dyn_word *word)
     free(word);
 }
 
+/* ---- presets ---- */
+
+static int longest_line(const struct dyn_word *word)
+{
+    int most = 0, line = -1, count = 0;
+    for (int i = 0; i < word->letters_count; i++) {
+        count = word->letters[i].line == line ? count + 1 : 1;
+        line = word->letters[i].line;
+        most = count > most ? count : most;
+    }
+    return most;
+}
+
+enum dyn_status dyn_preset_fit(const char *name, struct dyn_word_def *def, int *letters)
+{
+    enum { LETTERS = 9 };
+    struct dyn_word word = {.style = def->style};
+    struct dyn_place *places;
+    if (!dyn_preset_collides(name) && !letters)
+        return DYN_OK;
+    const enum dyn_status status = dyn_letters_make(&word, def, &places);
+    const int longest = longest_line(&word);
+    const double part = (double)longest / LETTERS;
+    free(places);
+    free(word.letters);
+    if (status != DYN_OK)
+        return status;
+    if (dyn_preset_collides(name) && longest < LETTERS)
+        def->style.link *= part * part;
+    if (letters)
+        *letters = longest;
+    return DYN_OK;
+}
+
 /* ---- springs ---- */
 
 static struct dyn_spring spring_of(const struct dyn_word *word,

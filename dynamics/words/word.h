@@ -6,6 +6,7 @@
  *     def.y = 3;
  *     struct dyn_world world = *dyn_network_world(network);
  *     if (dyn_preset_apply("breakdown", &def.style, &world) != DYN_OK ||
+ *         dyn_preset_fit("breakdown", &def, NULL) != DYN_OK ||
  *         dyn_network_world_set(network, &world) != DYN_OK || dyn_word_create(network, &def, &word) != DYN_OK)
  *         die(dyn_error());
  *     for (int i = 0; i < dyn_word_glyphs_count(word); i++) {
@@ -98,9 +99,6 @@ extern const int dyn_presets_count;
  * lists the names. */
 enum dyn_status dyn_preset_apply(const char *name, struct dyn_word_style *style,
                                  struct dyn_world *world);
-/* A preset that breaks, for lines of so many letters at most: its links bear a line of fewer
- * letters than nine, so they are weaker there. Others stay as they are. */
-void dyn_preset_fit(const char *name, int letters, struct dyn_word_style *style);
 /* False, too, where there is no preset of that name. */
 bool dyn_preset_collides(const char *name);
 
@@ -118,6 +116,11 @@ struct dyn_word_def {
     int path_count; /* 0: straight */
     struct dyn_word_style style;
 };
+/* Fits the style of a preset, which has been applied, to the word: where the preset breaks, its
+ * links bear a line of fewer letters than nine, so they are weaker there. Others stay as they
+ * are. *letters (NULL is fine): how many the longest line has. Errors: those of
+ * dyn_word_create(); the style is unchanged. */
+enum dyn_status dyn_preset_fit(const char *name, struct dyn_word_def *def, int *letters);
 /* Without text and shaper; the style of dyn_word_style_usual(). */
 struct dyn_word_def dyn_word_def_usual(void);
 

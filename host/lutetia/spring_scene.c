@@ -86,10 +86,10 @@ static double lines_height(const struct spring_scene_def *def, const struct spri
     return height; /* where it fails, the word fails, too, and says why */
 }
 
-/* With its baseline at that height. letters: of its longest line; 0: nobody knows yet. */
+/* With its baseline at that height. *letters (NULL is fine): of its longest line. */
 static enum stage_status word_put(const struct spring_scene_def *def,
                                   const struct spring_scene *scene,
-                                  struct stage_springs_def *springs, double y, int letters)
+                                  struct stage_springs_def *springs, double y, int *letters)
 {
     double x = def->at[0], path[CIRCLE_POINTS][2];
     struct dyn_word_def word = dyn_word_def_usual();
@@ -114,8 +114,8 @@ static enum stage_status word_put(const struct spring_scene_def *def,
     enum dyn_status status = DYN_OK;
     if (def->preset)
         status = dyn_preset_apply(def->preset, &word.style, &world);
-    if (status == DYN_OK && def->preset && letters)
-        dyn_preset_fit(def->preset, letters, &word.style);
+    if (status == DYN_OK && def->preset)
+        status = dyn_preset_fit(def->preset, &word, letters);
     if (status == DYN_OK)
         status = dyn_network_world_set(springs->network, &world);
     enum stage_status set = status == DYN_OK ? style_set(def, &word.style) : fail_dyn(status);
@@ -137,53 +137,36 @@ static const double above_floor = 0.5; /* ems */
 
 static enum stage_status word_put_again(const struct spring_scene_def *def,
                                         const struct spring_scene *scene,
-                                        struct stage_springs_def *springs, double y,
-                                        int letters)
+                                        struct stage_springs_def *springs, double y)
 {
     dyn_word_destroy(springs->word);
     dyn_network_destroy(springs->network);
     springs->word = NULL;
     springs->network = NULL;
     const enum dyn_status made = dyn_network_create(&springs->network);
-    return made == DYN_OK ? word_put(def, scene, springs, y, letters) : fail_dyn(made);
+    return made == DYN_OK ? word_put(def, scene, springs, y, NULL) : fail_dyn(made);
 }
 
-/* Of the longest line. */
-static int letters_count(const struct dyn_word *word)
+/* How much higher than others a word that breaks begins, of so many letters: a long one breaks
+ * before the floor bears it. */
+static double break_lift(const struct spring_scene_def *def, int letters)
 {
-    int most = 0, line = -1, count = 0;
-    for (int i = 0; i < dyn_word_letters_count(word); i++) {
-        count = dyn_word_letter(word, i)->line == line ? count + 1 : 1;
-        line = dyn_word_letter(word, i)->line;
-        most = count > most ? count : most;
-    }
-    return most;
-}
-
-/* A word that breaks, of whatever length: short ones have weaker links, long ones are so high
- * that they break before the floor bears them. */
-static enum stage_status word_break(const struct spring_scene_def *def,
-                                    const struct spring_scene *scene,
-                                    struct stage_springs_def *springs, double y)
-{
-    enum { SHORT = 9, LONG = 10 };
-    const int letters = letters_count(springs->word);
-    const double lift =
-        isnan(def->at[1]) ? fmin(2, fmax(0, (letters - LONG) / 3.0)) : 0; /* ems */
-    return letters < SHORT || lift > 0 ? word_put_again(def, scene, springs, y + lift, letters)
-                                       : STAGE_OK;
+    enum { LONG = 10 };
+    return isnan(def->at[1]) ? fmin(2, fmax(0, (letters - LONG) / 3.0)) : 0; /* ems */
 }
 
 /* A word that hangs is so high that it does not reach the floor, and all that it will do is
  * seen. */
 static enum stage_status word_fit(const struct spring_scene_def *def,
                                   const struct spring_scene *scene,
-                                  struct stage_springs_def *springs, double y)
+                                  struct stage_springs_def *springs, double y, int letters)
 {
     const bool placed = !isnan(def->at[1]);
     struct font_box box;
-    if (def->preset && dyn_preset_collides(def->preset))
-        return word_break(def, scene, springs, y);
+    if (def->preset && dyn_preset_collides(def->preset)) {
+        const double lift = break_lift(def, letters);
+        return lift > 0 ? word_put_again(def, scene, springs, y + lift) : STAGE_OK;
+    }
     if (!hangs(&springs->style) || (placed && !isnan(def->view[0])))
         return STAGE_OK;
     enum stage_status status =
@@ -191,7 +174,7 @@ static enum stage_status word_fit(const struct spring_scene_def *def,
     const double floor = dyn_network_world(springs->network)->floor,
                  lift = placed ? 0 : fmax(0, floor + above_floor - box.y0);
     if (status == STAGE_OK && lift > 0)
-        status = word_put_again(def, scene, springs, y + lift, 0);
+        status = word_put_again(def, scene, springs, y + lift);
     if (status != STAGE_OK || !isnan(def->view[0]))
         return status;
     const double bottom = fmin(box.y0 + lift, floor), top = box.y1 + lift;
@@ -232,11 +215,12 @@ static enum stage_status word_again(void *context, const char *words,
     if (made != DYN_OK)
         return fail_dyn(made);
     const double y = height_usual(&def, scene);
-    enum stage_status status = word_put(&def, scene, out, y, 0);
+    int letters = 0;
+    enum stage_status status = word_put(&def, scene, out, y, &letters);
     if (!isnan(def.view[0]))
         out->extent = (struct font_box){def.view[0], def.view[1], def.view[2], def.view[3]};
     if (status == STAGE_OK)
-        status = word_fit(&def, scene, out, y);
+        status = word_fit(&def, scene, out, y, letters);
     if (status != STAGE_OK) {
         dyn_word_destroy(out->word);
         dyn_network_destroy(out->network);
@@ -258,10 +242,11 @@ static enum stage_status springs_make(const struct spring_scene_def *def,
             return fail_dyn(status);
         enum stage_status made = font_open(def, scene);
         const double y = made == STAGE_OK ? height_usual(def, scene) : 0;
+        int letters = 0;
         if (made == STAGE_OK)
-            made = word_put(def, scene, springs, y, 0);
+            made = word_put(def, scene, springs, y, &letters);
         if (made == STAGE_OK)
-            made = word_fit(def, scene, springs, y);
+            made = word_fit(def, scene, springs, y, letters);
         if (made != STAGE_OK)
             return made;
     }

@@ -125,12 +125,14 @@ static void word_add(lua_State *L, struct script_network *s)
     const char *font = script_arg_text(L, 2, "word", "font");
     def.align = align ? (enum font_align)script_arg_choice(L, "word align", align, aligns)
                       : FONT_ALIGN_START;
-    if (preset)
+    def.shaper = shaper_of(L, s, font ? font : font_face_first(fonts));
+    if (preset) {
         script_dyn_check(L, dyn_preset_apply(preset, &def.style, &world));
+        script_dyn_check(L, dyn_preset_fit(preset, &def, NULL));
+    }
     controls_read(L, 2, dyn_word_controls, dyn_word_controls_count, &def.style);
     controls_read(L, 2, dyn_controls, dyn_controls_count, &world);
     path_read(L, 2, &def);
-    def.shaper = shaper_of(L, s, font ? font : font_face_first(fonts));
     script_dyn_check(L, dyn_word_create(s->network, &def, &s->words[s->words_count]));
     s->words_count++;
     script_dyn_check(L, dyn_network_world_set(s->network, &world));

@@ -70,6 +70,24 @@ static void words_are_made_of_letters(void **state)
            "6\t24\t56\t5\t6\t7\t8\n3.0\t2\t8\ntrue\ttrue\ttrue\ntrue\n");
 }
 
+/* As those of `lutetia spring`: short words have weaker links, unless a script says its own. */
+static void short_words_break(void **state)
+{
+    (void)state;
+    prints(
+        "for _, text in ipairs{'cry', 'iii', 'word', 'hello', 'breakdown'} do\n"
+        "  for _, link in ipairs{0, 210} do\n"
+        "    local w = spring.word{text = text, preset = 'breakdown', y = 2, link = link > 0 "
+        "and link or nil}\n"
+        "    local broken = 0 w:collide(true)\n"
+        "    w:on(function(e) if e.kind == 'snap' then broken = broken + 1 end end)\n"
+        "    w:step(1200) print(text, link, broken > 0)\n"
+        "  end\nend",
+        "cry\t0\ttrue\ncry\t210\tfalse\niii\t0\ttrue\niii\t210\tfalse\nword\t0\ttrue\n"
+        "word\t210\tfalse\nhello\t0\ttrue\nhello\t210\tfalse\nbreakdown\t0\ttrue\n"
+        "breakdown\t210\ttrue\n");
+}
+
 static void masses_are_led_along_keys(void **state)
 {
     (void)state;
@@ -187,6 +205,7 @@ int main(void)
         cmocka_unit_test(masses_fall_and_springs_hold),
         cmocka_unit_test(events_are_told_and_listed),
         cmocka_unit_test(words_are_made_of_letters),
+        cmocka_unit_test(short_words_break),
         cmocka_unit_test(masses_are_led_along_keys),
         cmocka_unit_test(networks_are_saved_and_read),
         cmocka_unit_test(what_cannot_be_is_one_line),
