@@ -2,10 +2,10 @@
 #include "stage_window.h"
 
 #include "renderer.h"
+#include "stage_recording.h"
 #include "stage_stream.h"
 #include "typed_words.h"
 
-#include <video.h>
 #include <window.h>
 
 #include <math.h>
@@ -13,9 +13,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-enum { RECORDING_FPS = 30, MESSAGE_S = 4 };
+enum { MESSAGE_S = 4 };
 #define EARLY 0.25 /* of the time between pictures, where something is played meanwhile */
 
 struct stage_window {
@@ -33,11 +32,7 @@ struct stage_window {
     struct typed_words words;
     char message[240];
     double message_s; /* when it was said */
-    /* A recording: pictures at times that are a thirtieth apart. */
-    struct video *video;
-    struct display_image image;
-    double record_next_s, record_began_s;
-    char recorded[512];
+    struct stage_recording recording;
 };
 
 struct stage_window_def stage_window_def_default(void)
@@ -59,86 +54,6 @@ __attribute__((format(printf, 2, 3))) static void say(struct stage_window *w,
     vsnprintf(w->message, sizeof w->message, format, arguments);
     va_end(arguments);
     w->message_s = input_now_s();
-}
-
-/* ---- recording ---- */
-
-/* -1: there is none; *why: why not, or NULL. */
-static int recording_sound(struct stage_window *w, const char **why)
-{
-    *why = NULL;
-    return w->def.sound_end ? w->def.sound_end(w->def.after_context, input_now_s(), why) : -1;
-}
-
-static void recording_end(struct stage_window *w)
-{
-    const char *why;
-    if (!w->video)
-        return;
-    long frames = video_frames(w->video);
-    snprintf(w->recorded, sizeof w->recorded, "%s", video_path(w->video));
-    const int sound = recording_sound(w, &why);
-    if (video_finish_with_sound(w->video, sound) != DISPLAY_OK) {
-        say(w, "%s", display_error());
-        w->recorded[0] = '\0';
-    } else {
-        say(w, "%ld pictures in %s%s%s", frames, w->recorded, why ? ", silent: " : "",
-            why ? why : "");
-    }
-    if (sound >= 0)
-        close(sound);
-    w->video = NULL;
-}
-
-static void recording_abandon(struct stage_window *w)
-{
-    const char *why;
-    const int sound = recording_sound(w, &why);
-    if (sound >= 0)
-        close(sound);
-    video_abandon(w->video);
-    w->video = NULL;
-}
-
-static void recording_begin(struct stage_window *w)
-{
-    struct video_def def = {.path = w->def.record_path,
-                            .fps = RECORDING_FPS,
-                            .sound = -1,
-                            .sounds_later = w->def.sound_end != NULL};
-    stage_renderer_size(w->renderer, &def.width_px, &def.height_px);
-    def.width_px &= ~1;
-    def.height_px &= ~1;
-    if (video_create_as(&def, &w->video) != DISPLAY_OK) {
-        say(w, "%s", display_error());
-        return;
-    }
-    w->record_began_s = w->record_next_s = input_now_s();
-    if (w->def.sound_begin)
-        w->def.sound_begin(w->def.after_context, w->record_began_s);
-    say(w, "recording to %s", video_path(w->video));
-}
-
-/* Repeats the last picture for all frames due until now. */
-static void recording_add(struct stage_window *w, double now_s)
-{
-    if (!w->video || now_s < w->record_next_s)
-        return;
-    int width = w->image.width_px, height = w->image.height_px;
-    bool failed = stage_renderer_read(w->renderer, &w->image) != STAGE_OK;
-    if (!failed)
-        display_image_make_even(&w->image); /* as films are */
-    if (!failed && video_frames(w->video) > 0 &&
-        (width != w->image.width_px || height != w->image.height_px)) {
-        recording_end(w); /* a film has one size */
-        return;
-    }
-    for (; !failed && w->record_next_s <= now_s; w->record_next_s += 1.0 / RECORDING_FPS)
-        failed = video_add(w->video, w->image.pixels) != DISPLAY_OK;
-    if (failed) {
-        say(w, "%s", display_error());
-        recording_abandon(w);
-    }
 }
 
 /* ---- keys ---- */
@@ -193,10 +108,7 @@ static void key_panel(struct stage_window *w)
 
 static void key_record(struct stage_window *w)
 {
-    if (w->video)
-        recording_end(w);
-    else
-        recording_begin(w);
+    stage_recording_toggle(&w->recording, &w->def, w->renderer);
 }
 
 static void key_save(struct stage_window *w)
@@ -423,7 +335,7 @@ static void overlay_draw(struct stage_window *w, int width, int height, double p
     if (!w->drawn)
         stage_panel_text(w->panel, &w->list, "A", text, height - text, text, false,
                          stage_background(w->stage));
-    if (w->video)
+    if (w->recording.video)
         stage_draw_disc(&w->list, text, text, 0.5 * text, colors[STAGE_COLOR_RECORDING]);
 }
 
@@ -442,6 +354,9 @@ static enum stage_status stream_take(struct stage_window *w, int width, int heig
 
 static enum stage_status frame_draw(struct stage_window *w, double now_s)
 {
+    const char *told = stage_recording_told(&w->recording);
+    if (told)
+        say(w, "%s", told);
     int width, height;
     double px = window_scale(w->window);
     stage_renderer_size(w->renderer, &width, &height);
@@ -490,7 +405,7 @@ enum stage_status stage_window_turn(struct stage_window *w)
         w->def.after(w->def.after_context, w->stage);
     if (status == STAGE_OK)
         status = frame_draw(w, began_s);
-    recording_add(w, began_s);
+    stage_recording_add(&w->recording, w->renderer, began_s);
     w->pace.due_s = began_s + w->pace.least_s;
     w->soonest_s = fmax(began_s + EARLY * w->pace.least_s, 2 * input_now_s() - began_s);
     return status;
@@ -546,19 +461,18 @@ void stage_window_destroy(struct stage_window *w)
 {
     if (!w)
         return;
-    recording_end(w);
+    stage_recording_finish(&w->recording);
     stage_stream_close(w->stream);
     stage_panel_destroy(w->panel);
     stage_renderer_destroy(w->renderer);
     window_destroy(w->window);
-    display_image_destroy(&w->image);
     stage_draw_finish(&w->list);
     free(w);
 }
 
 void stage_window_record_end(struct stage_window *w)
 {
-    recording_end(w);
+    stage_recording_end(&w->recording);
 }
 
 bool stage_window_open(const struct stage_window *w)
@@ -568,7 +482,7 @@ bool stage_window_open(const struct stage_window *w)
 
 const char *stage_window_recorded(const struct stage_window *w)
 {
-    return w->recorded[0] ? w->recorded : NULL;
+    return w->recording.recorded[0] ? w->recording.recorded : NULL;
 }
 
 const char *stage_window_message(const struct stage_window *w)

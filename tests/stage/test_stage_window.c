@@ -9,6 +9,7 @@
 
 #include <stage_window.h>
 
+#include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
@@ -367,6 +368,65 @@ static void films_are_recorded(void **state)
     assert_non_null(strstr(stage_window_message(window), "pictures in"));
 }
 
+/* A red disc in the window's corner. */
+static bool recording_is_seen(void)
+{
+    struct display_image image = {0};
+    bool red = false;
+    assert_int_equal(stage_window_picture(window, &image), STAGE_OK);
+    for (int y = 0; y < 40; y++)
+        for (int x = 0; x < 40; x++) {
+            const uint8_t *p =
+                image.pixels + 3 * ((size_t)y * (size_t)image.width_px + (size_t)x);
+            red = red || (p[0] > 150 && p[1] < 90 && p[2] < 90);
+        }
+    display_image_destroy(&image);
+    return red;
+}
+
+/* An encoder that takes two seconds to end holds up neither the stage nor the disc's going. */
+static void ending_a_film_holds_nothing_up(void **state)
+{
+    (void)state;
+    const char *const path = scratch_path("slow/ffmpeg"), *const was = getenv("PATH");
+    char slow[512], before[4096];
+    snprintf(slow, sizeof slow, "%s", path);
+    *strrchr(slow, '/') = '\0';
+    snprintf(before, sizeof before, "%s", was ? was : "");
+    assert_true(mkdir(slow, 0700) == 0 || errno == EEXIST);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("#!/bin/sh\n/bin/cat >/dev/null\n/bin/sleep 2\nexit 1\n", file);
+    fclose(file);
+    chmod(path, 0700);
+    setenv("PATH", slow, 1);
+    stage_window_destroy(window);
+    assert_true(screen_window_gone(there, 5));
+    struct stage_window_def def = stage_window_def_default();
+    def.title = "springs";
+    def.width_px = 700;
+    def.height_px = 500;
+    def.record_path = scratch_path("film.mp4");
+    assert_int_equal(stage_window_create(stage, &def, &window), STAGE_OK);
+    there = screen_window("springs", 10);
+    turn();
+    assert_false(recording_is_seen());
+    xtest_type(XK_v);
+    UNTIL(strstr(stage_window_message(window), "recording to"));
+    UNTIL(recording_is_seen());
+    xtest_type(XK_v);
+    UNTIL(!recording_is_seen());
+    const double began_s = clock_now_s();
+    assert_non_null(strstr(stage_window_message(window), "is being ended"));
+    for (int i = 0; i < 10; i++)
+        turn();
+    assert_true(clock_now_s() - began_s < 1.5);
+    assert_non_null(strstr(stage_window_message(window), "is being ended"));
+    UNTIL(strstr(stage_window_message(window), "cannot write"));
+    assert_null(stage_window_recorded(window));
+    setenv("PATH", before, 1);
+}
+
 static void windows_have_other_sizes_and_fill_the_screen(void **state)
 {
     (void)state;
@@ -478,6 +538,7 @@ int main(void)
         TEST(groups_fold),
         TEST(sliders_and_typed_values_set_controls),
         TEST(films_are_recorded),
+        TEST(ending_a_film_holds_nothing_up),
         TEST(windows_have_other_sizes_and_fill_the_screen),
         TEST(keys_are_listed),
         cmocka_unit_test(a_picture_comes_when_it_is_played),
