@@ -62,7 +62,9 @@ static bool reader_wrong(void)
 static const char pieces[] =
     "A formula $x_1^2 + \\frac{a}{b}$ in a paragraph[^n] that calls a note.\n\n"
     "```c\nint main(void)\n{\n    return 0;\n}\n```\n\n"
-    "[^n]: What the note *says*.\n\n";
+    "- An item.\n\n  ```c\n  int twice(int a);\n  ```\n\n"
+    "A [reference] leads to a page<br>\nelsewhere.\n\n"
+    "[^n]: What the note *says*.\n\n[reference]: https://example.org \"a title\"\n\n";
 
 static bool book_write(struct book *b, int count)
 {
@@ -251,6 +253,16 @@ static bool code_opened(struct book *b)
     return edit_opened(b, "return 0");
 }
 
+static bool listed_opened(struct book *b)
+{
+    return edit_opened(b, "twice");
+}
+
+static bool link_opened(struct book *b)
+{
+    return edit_opened(b, "leads to");
+}
+
 static bool formula_opened(struct book *b)
 {
     return edit_opened(b, "+ \\frac");
@@ -378,6 +390,8 @@ static const struct row {
     {"a letter", paragraph_opened, letter_typed, NULL},
     {"in a heading", heading_opened, letter_typed, NULL},
     {"in code", code_opened, letter_typed, NULL},
+    {"in a list's code", listed_opened, letter_typed, NULL},
+    {"beside a link", link_opened, letter_typed, NULL},
     {"in a formula", formula_opened, letter_typed, NULL},
     {"beside a note", caller_opened, letter_typed, NULL},
     {"in a note", note_opened, letter_typed, NULL},

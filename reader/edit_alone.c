@@ -5,12 +5,14 @@
  *   - the line before is blank, and the first one is moved in by nothing, so that it ends all
  *     that was open; it is no item where a list stands before;
  *   - a blank line follows, then one that is moved in by nothing, and no item behind a list;
- *   - there are no fences and tags, and no brackets where anything in the source defines what
- *     links mean. Notes that it calls are defined behind it, by their names.
+ *   - no tag begins what goes on over blank lines, and fences are in lists and quotes;
+ *   - what its brackets may mean is defined behind it: links (edit_defined.c), and notes that it
+ *     calls, by their names. Labels stay.
  *   A note: its definition's lines, called by a line that is put ahead.
  *   Code: a fence that is in nothing, whose own two lines stay, and what it has in it has no
  *   fences. */
 #include "edit_internal.h"
+#include "edit_lines.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -21,26 +23,6 @@ enum {
     LINES_BYTES_MOST = 64 << 10,
     NAMES = 64
 }; /* of what is read alone: more is hardly faster */
-
-static bool is_blank_line(const char *s, size_t at, size_t bytes)
-{
-    while (at < bytes && (s[at] == ' ' || s[at] == '\t'))
-        at++;
-    return at == bytes || s[at] == '\n';
-}
-
-static size_t line_begin(const char *s, size_t at)
-{
-    while (at > 0 && s[at - 1] != '\n')
-        at--;
-    return at;
-}
-
-static size_t line_end(const char *s, size_t at, size_t bytes)
-{
-    const char *end = memchr(s + at, '\n', bytes - at);
-    return end ? (size_t)(end - s) : bytes;
-}
 
 static bool has_any(const char *s, size_t bytes, const char *signs)
 {
@@ -69,31 +51,6 @@ static bool is_item(const char *s, size_t at, size_t bytes)
                bullet = end == at && end < bytes && strchr("-+*", s[end]) && s[end];
     return (number || bullet) &&
            (end + 1 >= bytes || s[end + 1] == ' ' || s[end + 1] == '\t' || s[end + 1] == '\n');
-}
-
-/* Behind a note's name where a line defines one, "[^name]:"; 0: it does not. */
-static size_t definition_end(const char *s, size_t at, size_t bytes)
-{
-    const size_t end = line_end(s, at, bytes);
-    if (end - at < 5 || s[at] != '[' || s[at + 1] != '^')
-        return 0;
-    const char *close = memchr(s + at, ']', end - at);
-    return close && close > s + at + 2 && close + 1 < s + end && close[1] == ':'
-               ? (size_t)(close + 2 - s)
-               : 0;
-}
-
-/* Whether anything in a source may define what brackets mean that are not a note's. */
-static bool links_are_defined(const struct reader_bytes *source)
-{
-    const char *s = source->text;
-    const char *end = s + source->bytes;
-    for (const char *at = s; (at = memmem(at, (size_t)(end - at), "]:", 2)); at += 2) {
-        const size_t begin = line_begin(s, (size_t)(at - s));
-        if (definition_end(s, begin, source->bytes) != (size_t)(at + 2 - s))
-            return true;
-    }
-    return false;
 }
 
 static int line_of(const struct reader_bytes *source, size_t at)
@@ -209,11 +166,46 @@ static bool formulas_stand_alone(const struct reader_bytes *source, const struct
     return begin == a->begin && end == a->end && !reader_mask_is_fenced(s, (int)begin);
 }
 
-/* Whether nothing in these lines depends on what is elsewhere. brackets: they may have some. */
-static bool is_plain(const char *s, size_t bytes, bool brackets)
+/* Whether nothing in these lines goes on behind them. */
+static bool is_plain(const char *s, size_t bytes)
 {
-    return bytes && s[0] != ' ' && s[0] != '\t' && !has_any(s, bytes, "<\r") &&
-           !has_fence(s, bytes) && (brackets || !memchr(s, '[', bytes));
+    return bytes && s[0] != ' ' && s[0] != '\t' && !has_any(s, bytes, "\r") &&
+           !edit_goes_on(s, bytes);
+}
+
+/* Whether fences there are what they are alone to who looks for formulas. */
+static bool fences_stand_alone(const struct reader_bytes *source, const struct edit_alone *a,
+                               const char *now, size_t bytes)
+{
+    const char *was = source->text + a->begin;
+    const size_t was_bytes = a->end - a->begin;
+    if (!has_fence(was, was_bytes) && !has_fence(now, bytes))
+        return true;
+    return !reader_mask_is_fenced(was, (int)was_bytes) &&
+           !reader_mask_is_fenced(now, (int)bytes) &&
+           !reader_mask_is_fenced(source->text, (int)a->begin);
+}
+
+/* Whether fences end with their list or quote. */
+static bool fences_are_nested(const struct reader_document *d)
+{
+    for (int i = 0; i < d->blocks_count; i++) {
+        const struct reader_block *b = &d->blocks[i];
+        if ((b->kind == READER_CODE_BLOCK || b->kind == READER_LIVE || b->info) && !b->items &&
+            !b->quotes)
+            return false;
+    }
+    return true;
+}
+
+/* The same places have the same names. */
+static bool labels_stay(const struct reader_document *was, const struct reader_document *now)
+{
+    bool same = was->labels_count == now->labels_count;
+    for (int i = 0; i < was->labels_count && same; i++)
+        same = was->labels[i].block == now->labels[i].block &&
+               strcmp(was->labels[i].name, now->labels[i].name) == 0;
+    return same;
 }
 
 int edit_note_of(const struct reader_document *d, int source, const struct reader_note *note)
@@ -288,12 +280,14 @@ static bool around_make(const struct reader_document *d, int source,
     FILE *to = open_memstream(&out->behind, &behind_bytes);
     if (!to)
         return false;
+    const bool brackets = memchr(s, '[', a->end - a->begin) || memchr(now, '[', now_bytes);
+    const bool good = !brackets || edit_defined(d, source, bytes, a->begin, a->end, to);
     for (int i = 0; i < count; i++) {
         const struct reader_note *n = &d->notes[names[i]];
         if (!a->notes || names[i] != a->note)
             fprintf(to, "\n\n[^%s%s%s]: x\n", n->class, *n->class ? ":" : "", n->name);
     }
-    return fclose(to) == 0;
+    return fclose(to) == 0 && good;
 }
 
 /* These lines as a document; NULL: they depend on others, or cannot be read. */
@@ -311,7 +305,7 @@ static struct reader_document *lines_read(const char *s, size_t bytes,
     memcpy(all + ahead, s, bytes);
     memcpy(all + ahead + bytes, around->behind, behind + 1);
     const bool good = reader_document_add(d, all, ahead + bytes + behind) == READER_OK &&
-                      d->blocks_count > 0 && !d->labels_count &&
+                      d->blocks_count > 0 &&
                       (!ahead || (d->blocks_count == 1 && d->notes_count > 0));
     free(all);
     if (good)
@@ -420,10 +414,9 @@ static bool stand_alone(const struct reader_document *d, const struct reader_byt
     const size_t was_bytes = a->end - a->begin;
     if (a->code)
         return code_stands_alone(source, a, now, bytes);
-    const bool has = memchr(now, '[', bytes) || memchr(was, '[', was_bytes),
-               brackets = has && !links_are_defined(source) &&
-                          (a->notes || !memmem(now, bytes, "]:", 2));
-    return is_plain(was, was_bytes, brackets) && is_plain(now, bytes, brackets) &&
+    return is_plain(was, was_bytes) && is_plain(now, bytes) &&
+           (a->notes || !memmem(now, bytes, "]:", 2)) &&
+           fences_stand_alone(source, a, now, bytes) &&
            formulas_stand_alone(source, a, now, bytes) && !strchr(" \t\n", now[0]) &&
            (!is_item(now, 0, bytes) || !list_before(d, number, a->line));
 }
@@ -450,7 +443,8 @@ static bool documents_read(const struct reader_document *d, const struct reader_
     if (a->was)
         a->now = lines_read(now, bytes, &around);
     free(around.behind);
-    return a->now != NULL;
+    return a->now && (a->code || (labels_stay(a->was, a->now) && fences_are_nested(a->was) &&
+                                  fences_are_nested(a->now)));
 }
 
 bool edit_alone_read(const struct reader_document *d, const struct reader_bytes *source,

@@ -8,6 +8,8 @@
 #include "reader_edit.h"
 #include "reader_internal.h"
 
+#include <stdio.h>
+
 /* For each byte of a block's text, the bytes of the source that are it. */
 struct edit_map {
     int *begin, *end;
@@ -81,6 +83,13 @@ struct edit_alone {
 bool edit_alone_read(const struct reader_document *d, const struct reader_bytes *source,
                      const struct edit_splice *splice, struct edit_alone *out);
 void edit_alone_finish(struct edit_alone *alone);
+/* edit_defined.c: */
+/* Whether a tag in a text may begin what goes on over blank lines. */
+bool edit_goes_on(const char *text, size_t bytes);
+/* Writes what a source defines links to be, but for its bytes begin..end. False: it is not
+ * certain. */
+bool edit_defined(const struct reader_document *d, int number,
+                  const struct reader_bytes *source, size_t begin, size_t end, FILE *to);
 /* The note of that name in a source of the document's; -1: there is none. */
 int edit_note_of(const struct reader_document *d, int source, const struct reader_note *note);
 

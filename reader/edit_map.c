@@ -283,6 +283,10 @@ static bool sign_skip(struct walk *w)
     if (behind < 0)
         return false;
     w->at = behind;
+    const char *text = w->block->text + w->map->count;
+    const bool enough = w->map->count && text[-1] == ' ' && *text != ' ';
+    while (enough && w->at < w->end && is_blank(w->s[w->at])) /* around a comment */
+        w->at++;
     return true;
 }
 

@@ -125,68 +125,79 @@ static void typed_letters_are_written(void **state)
     }
 }
 
+static const struct {
+    const char *source, *at;
+    bool alone;
+} lines[] = {
+    {"Before\n\n# Head\n\nText\n", "Hea|d", true},
+    {"Head\nof two\n===\n\nText\n", "two|", true},
+    {"# Head\nText\n", "Tex|t", true},
+    {"A\n\n- one\n- two\n    1. deep\n\n       more\n- three\n\nB\n", "mor|e", true},
+    {"- one\n\n- two\n\n- three\n", "tw|o", true},
+    {"3. one\n4. two\n", "tw|o", true},
+    {"- [x] done\n- [ ] to do\n", "do|ne", true},
+    {"> one\n> two\n>\n> - item\n", "ite|m", true},
+    {"| a | b |\n|---|:-:|\n| c | d |\n", "c|", true},
+    {"One\n\n| a |\n|---|\n\n| a |\n|---|\n| c |\n", "c|", true},
+    {"- [one](one.md) and *two*\n- [three](#three)\n\n# Three\n", "tw|o", true},
+    {"- [one](#head)\n\n# Head\n", "on|e", true},
+    {"One\n\n# Head\n\n[r]: x.md\n", "Hea|d", true},
+    {"- a [r]\n- b\n\n[r]: x.md\n", "|b", true},   /* brackets are defined */
+    {"- a [r]\n- b\n\n [r]: x.md\n", "|b", false}, /* perhaps */
+    {"- a [r]\n- b\n\n[r]: x.md\n\"more\"\n", "|b", false},
+    {"- a [r]\n- b\n\n```\n\n[r]: x.md\n\n```\n", "|b", false},
+    {"- a [r]\n- b\n\n<!--\n\n[r]: x.md\n\n-->\n", "|b", false},
+    {"A <b>bold</b> word<br>\nand <https://a.b>\n", "wo|rd", true},
+    {"<a id=\"b\"></a>A label, and [see](#b).\n\n# C\n", "lab|el", true},
+    {"A <!-- no --> word\n", "wo|rd", false},
+    {"# Head\n\n## B\n\nSee [#](#b).\n", "Hea|d", false},
+    {"# Head\n\nSee [#](#head).\n", "Se|e", false},
+    {"- <a id=\"bibliography\"></a>b\n- a\n", "a|", false},
+    {"# Bibliography\n\n- zc\n- za\n", "za|", false},
+    {"- one\n\n```\ncode\n```\n", "on|e", true},
+    {"- one\n\n      code\n\ntext\n", "on|e", true},
+    {"```\n- one\n\n- two\n```\n", "on|e", true},
+    {"A\n\n```c\nint a;\n\n$b `c`\n```\nB\n", "int| a", true},
+    {"```\none\ntwo\n```\n", "on|e\ntwo", true},
+    {"A\n```\none\n```\n", "on|e", false}, /* formulas may go over its fences */
+    {"- A\n\n  ```\n  one\n  ```\n", "on|e", true},
+    {"- A\n\n  ```\n  one\n\n- B\n\nC\n", "|B", false}, /* formulas behind it are not */
+    {"> ```\n> one\n> ```\n\nB\n", "on|e", true},
+    {"- A\n\n ```\n one\n ```\n\nB\n", "|A", false}, /* it is in nothing */
+    {"````\n```\none\n```\n````\n", "on|e", false},
+    {"    ```\n\n```\n$one$\n```\n\n$a$\n", "on|e", false}, /* no fence to formulas */
+    {"~~~ lua live\none()\n~~~\n", "on|e", true},
+    {"```math\nx_1\n```\n", "x_|1", true},
+    {"A $x^2$ b.\n", "A |$", true},
+    {"A\n\n$$x^2$$\n\nB\n", "x|^2", true},
+    {"A\n```\n$b\n```\n\nC $d$\n", "C |$", true},
+    {"A[^n]\n\n[^n]: - one\n\n    - two\n", "tw|o", true},
+    {"A[^n] b[^m].\n\n[^m]: One.\n[^n]: Two *three*,\nfour.\n\n    Five.\n", "Tw|o", true},
+    {"A[^n] b[^m].\n\n[^m]: One.\n[^n]: Two *three*,\nfour.\n\n    Five.\n", "Fiv|e", true},
+    {"A[^n] b[^m].\n\n[^m]: One.\n[^n]: Two.\n", "On|e", true},
+    {"A[^n].\n\n[^n]: Two [three](a.md).\n", "Tw|o", true},
+    {"A[^n].\n\n[^n]: Two [r].\n\n[r]: a.md\n", "Tw|o", true},
+    {"A[^n].\n\n[^n]: Two[^margin:m].\n\n[^margin:m]: Three.\n", "Tw|o", true},
+    {"A[^n].\n\nB[^m] c[^n].\n\n[^n]: N.\n[^m]: M.\n", "B|2", true},
+    {"A[^n].\n\nB[^N].\n\n[^n]: N.\n", "B|1", false}, /* a name of other letters */
+    {"A[^n].\n\n[^n]: costs $5\n[^m]: and $6\n", "co|sts", false},
+    {"<!--\n\n- no\n\n-->\n\n- one\n", "on|e", true},
+};
+
 /* A letter in a heading, an item, a quote, a cell is read with the lines around it alone; where
  * other blocks have to do with it, all is read. */
 static void touched_blocks_are_read_alone(void **state)
 {
-    static const struct {
-        const char *source, *at;
-        bool alone;
-    } cases[] = {
-        {"Before\n\n# Head\n\nText\n", "Hea|d", true},
-        {"Head\nof two\n===\n\nText\n", "two|", true},
-        {"# Head\nText\n", "Tex|t", true},
-        {"A\n\n- one\n- two\n    1. deep\n\n       more\n- three\n\nB\n", "mor|e", true},
-        {"- one\n\n- two\n\n- three\n", "tw|o", true},
-        {"3. one\n4. two\n", "tw|o", true},
-        {"- [x] done\n- [ ] to do\n", "do|ne", true},
-        {"> one\n> two\n>\n> - item\n", "ite|m", true},
-        {"| a | b |\n|---|:-:|\n| c | d |\n", "c|", true},
-        {"One\n\n| a |\n|---|\n\n| a |\n|---|\n| c |\n", "c|", true},
-        {"- [one](one.md) and *two*\n- [three](#three)\n\n# Three\n", "tw|o", true},
-        {"- [one](#head)\n\n# Head\n", "on|e", true},
-        {"One\n\n# Head\n\n[r]: x.md\n", "Hea|d", true},
-        {"- a [r]\n- b\n\n[r]: x.md\n", "|b", false}, /* brackets are defined */
-        {"# Head\n\n## B\n\nSee [#](#b).\n", "Hea|d", false},
-        {"# Head\n\nSee [#](#head).\n", "Se|e", false},
-        {"- <a id=\"bibliography\"></a>b\n- a\n", "a|", false},
-        {"# Bibliography\n\n- zc\n- za\n", "za|", false},
-        {"- one\n\n```\ncode\n```\n", "on|e", true},
-        {"- one\n\n      code\n\ntext\n", "on|e", true},
-        {"```\n- one\n\n- two\n```\n", "on|e", true},
-        {"A\n\n```c\nint a;\n\n$b `c`\n```\nB\n", "int| a", true},
-        {"```\none\ntwo\n```\n", "on|e\ntwo", true},
-        {"A\n```\none\n```\n", "on|e", false}, /* formulas may go over its fences */
-        {"- A\n\n  ```\n  one\n  ```\n", "on|e", false},
-        {"````\n```\none\n```\n````\n", "on|e", false},
-        {"    ```\n\n```\n$one$\n```\n\n$a$\n", "on|e", false}, /* no fence to formulas */
-        {"~~~ lua live\none()\n~~~\n", "on|e", true},
-        {"```math\nx_1\n```\n", "x_|1", true},
-        {"A $x^2$ b.\n", "A |$", true},
-        {"A\n\n$$x^2$$\n\nB\n", "x|^2", true},
-        {"A\n```\n$b\n```\n\nC $d$\n", "C |$", true},
-        {"A[^n]\n\n[^n]: - one\n\n    - two\n", "tw|o", true},
-        {"A[^n] b[^m].\n\n[^m]: One.\n[^n]: Two *three*,\nfour.\n\n    Five.\n", "Tw|o", true},
-        {"A[^n] b[^m].\n\n[^m]: One.\n[^n]: Two *three*,\nfour.\n\n    Five.\n", "Fiv|e", true},
-        {"A[^n] b[^m].\n\n[^m]: One.\n[^n]: Two.\n", "On|e", true},
-        {"A[^n].\n\n[^n]: Two [three](a.md).\n", "Tw|o", true},
-        {"A[^n].\n\n[^n]: Two [r].\n\n[r]: a.md\n", "Tw|o", false},
-        {"A[^n].\n\n[^n]: Two[^margin:m].\n\n[^margin:m]: Three.\n", "Tw|o", true},
-        {"A[^n].\n\nB[^m] c[^n].\n\n[^n]: N.\n[^m]: M.\n", "B|2", true},
-        {"A[^n].\n\nB[^N].\n\n[^n]: N.\n", "B|1", false}, /* a name of other letters */
-        {"A[^n].\n\n[^n]: costs $5\n[^m]: and $6\n", "co|sts", false},
-        {"<!--\n\n- no\n\n-->\n\n- one\n", "on|e", true},
-    };
     (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         struct edited e;
         struct reader_edit_change change;
-        edited_begin(&e, cases[i].source, NULL);
-        const size_t caret = caret_at(&e, cases[i].at);
+        edited_begin(&e, lines[i].source, NULL);
+        const size_t caret = caret_at(&e, lines[i].at);
         if (reader_edit_insert(e.edit, caret, caret, "x", 1, &change) != READER_OK)
-            fail_msg("%s: %s", cases[i].source, reader_error());
-        if ((change.block >= 0) != cases[i].alone)
-            fail_msg("%s is%s read alone", cases[i].source, cases[i].alone ? " not" : "");
+            fail_msg("%s: %s", lines[i].source, reader_error());
+        if ((change.block >= 0) != lines[i].alone)
+            fail_msg("%s is%s read alone", lines[i].source, lines[i].alone ? " not" : "");
         reader_edit_change_finish(&change);
         as_from_scratch(&e);
         edited_end(&e);

@@ -73,20 +73,22 @@ static void blocks_have_their_tags(void **state)
 {
     (void)state;
     char *html =
-        html_plain("# The *marsh*\n\nReeds & `a<b`[^1].\n\n1. one\n2. two\n   - in it\n\n"
-                   "> said\n\n```c\nint a;\n```\n\n| a | b |\n|---|--:|\n| 1 | 2 |\n\n"
+        html_plain("# The *marsh*\n\nReeds & `a<b`[^1].\n\nLines  \nthat<br>\nend.\n\n1. "
+                   "one\n2. two\n   - in it\n\n"
+                   "> said\n\n```c\nint a;\nint b;\n```\n\n| a | b |\n|---|--:|\n| 1 | 2 |\n\n"
                    "---\n\n[^1]: By night.\n");
     has(html, "<title>The marsh</title>");
     has(html, "<h1 id=\"b.0\">The <em>marsh</em></h1>");
     has(html,
         "Reeds &amp; <code>a&lt;b</code><sup><a href=\"#n.1\" id=\"c.1\">1</a></sup>.</p>");
-    has(html, "<ol><li><p id=\"b.2\"><span class=\"marker\">1.</span>one</p>\n</li>\n<li>");
-    has(html, "<ul><li><p id=\"b.4\"><span class=\"marker\">\xe2\x80\xa2</span>in "
+    has(html, "Lines<br>\nthat<br>\nend.</p>");
+    has(html, "<ol><li><p id=\"b.3\"><span class=\"marker\">1.</span>one</p>\n</li>\n<li>");
+    has(html, "<ul><li><p id=\"b.5\"><span class=\"marker\">\xe2\x80\xa2</span>in "
               "it</p>\n</li></ul>\n"
-              "</li></ol>\n<blockquote>\n<p id=\"b.5\">said</p>\n</blockquote>");
-    has(html, "<pre id=\"b.6\"><code>int a;</code></pre>");
-    has(html, "<th style=\"text-align:right\">b</th></tr>\n<tr id=\"b.8\"><td>1</td>");
-    has(html, "<hr id=\"b.9\">");
+              "</li></ol>\n<blockquote>\n<p id=\"b.6\">said</p>\n</blockquote>");
+    has(html, "<pre id=\"b.7\"><code>int a;\nint b;</code></pre>");
+    has(html, "<th style=\"text-align:right\">b</th></tr>\n<tr id=\"b.9\"><td>1</td>");
+    has(html, "<hr id=\"b.10\">");
     has(html,
         "<aside class=\"note\" id=\"n.1\"><a href=\"#c.1\">1</a>\n<p>By night.</p>\n</aside>");
     free(html);
