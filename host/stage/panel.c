@@ -29,10 +29,11 @@ struct stage_panel {
     struct group groups[GROUPS_MAX];
     int groups_count;
     /* What is done to it. */
-    int dragged;  /* a row; -1: none */
-    int pointed;  /* the same: the pointer is over it */
-    int wanted;   /* the same: to be scrolled to */
-    bool of_knob; /* an end of the dragged row's knob, not its value */
+    int dragged;          /* a row; -1: none */
+    int wanted;           /* the same: to be scrolled to */
+    bool of_knob;         /* an end of the dragged row's knob, not its value */
+    double pointer_px[2]; /* where the pointer was last */
+    int explained;        /* in the last picture; -1: none */
     struct stage_panel_knobs knobs;
     int typed_row;
     char typed[TYPED_MAX];
@@ -45,7 +46,8 @@ enum stage_status stage_panel_create(const char *font, struct stage_panel **out)
     struct stage_panel *p = calloc(1, sizeof *p);
     if (!p)
         return stage_fail(STAGE_NO_MEMORY, "no memory for a panel");
-    p->dragged = p->typed_row = p->pointed = p->wanted = -1;
+    p->dragged = p->typed_row = p->wanted = -1;
+    p->pointer_px[0] = -1;
     if (font_face_open(font, 0, &p->face) != FONT_OK ||
         font_shaper_create(p->face, &p->shaper) != FONT_OK) {
         stage_panel_destroy(p);
@@ -82,7 +84,8 @@ void stage_panel_knobs_set(struct stage_panel *p, const struct stage_panel_knobs
 void stage_panel_show(struct stage_panel *p, bool shown)
 {
     p->shown = shown;
-    p->dragged = p->typed_row = p->pointed = -1;
+    p->dragged = p->typed_row = -1;
+    p->pointer_px[0] = -1;
 }
 
 const char *stage_panel_message(const struct stage_panel *p)
@@ -338,6 +341,16 @@ static int lines_draw(struct stage_panel *p, struct stage_draw_list *list, const
     return lines;
 }
 
+/* The row at a place; -1: none. */
+static int row_at(const struct stage_panel *p, double x_px, double y_px)
+{
+    for (int i = 0; x_px >= p->left_px && i < p->rows_count; i++)
+        if (!group_of(p, i)->folded && y_px >= row_top(p, i) &&
+            y_px < row_top(p, i) + p->row_px)
+            return i;
+    return -1;
+}
+
 /* What a control does, on the left of its row. */
 static void help_draw(struct stage_panel *p, const struct control *row, int number,
                       const struct stage_color *colors, struct stage_draw_list *list)
@@ -359,7 +372,9 @@ static void help_draw(struct stage_panel *p, const struct control *row, int numb
         snprintf(text + used, sizeof text - used, "; moved by %s", knob.text);
     const int lines = lines_draw(p, NULL, text, 0, 0, width, colors[STAGE_COLOR_PANEL_TEXT]);
     const double height = lines * line + 1.2 * pad, x = p->left_px - 2 * pad - width;
-    const double y = fmax(pad, fmin(row_top(p, number), p->height_px - height - pad));
+    /* below how often pictures come */
+    const double y =
+        fmax(2.2 * p->text_px, fmin(row_top(p, number), p->height_px - height - pad));
     stage_draw_box(list, x - pad, y, x + width + pad, y + height, pad / 2, 0,
                    colors[STAGE_COLOR_PANEL]);
     lines_draw(p, list, text, x, y + pad + 0.8 * p->text_px, width,
@@ -395,11 +410,13 @@ void stage_panel_draw(struct stage_panel *p, struct stage *stage, int width_px, 
             if (row_top(p, i) > -p->row_px && row_top(p, i) < height_px)
                 row_draw(p, stage, &rows[i], i, list);
     }
-    const int helped = p->dragged >= 0     ? p->dragged
-                       : p->typed_row >= 0 ? p->typed_row
-                                           : p->pointed;
-    if (group_of(p, helped) && !group_of(p, helped)->folded)
-        help_draw(p, &rows[helped], helped, theme->colors, list);
+    p->explained = p->dragged >= 0     ? p->dragged
+                   : p->typed_row >= 0 ? p->typed_row
+                                       : row_at(p, p->pointer_px[0], p->pointer_px[1]);
+    if (!group_of(p, p->explained) || group_of(p, p->explained)->folded)
+        p->explained = -1;
+    else
+        help_draw(p, &rows[p->explained], p->explained, theme->colors, list);
 }
 
 /* ---- input ---- */
@@ -432,16 +449,6 @@ static void drag(struct stage_panel *p, struct stage *stage, double x_px)
 static bool inside(const struct font_box *box, const struct input_event *e)
 {
     return e->x_px >= box->x0 && e->x_px <= box->x1 && e->y_px >= box->y0 && e->y_px <= box->y1;
-}
-
-/* The row at a place; -1: none. */
-static int row_at(const struct stage_panel *p, double x_px, double y_px)
-{
-    for (int i = 0; x_px >= p->left_px && i < p->rows_count; i++)
-        if (!group_of(p, i)->folded && y_px >= row_top(p, i) &&
-            y_px < row_top(p, i) + p->row_px)
-            return i;
-    return -1;
 }
 
 /* True: it was on a title. */
@@ -549,8 +556,10 @@ bool stage_panel_input(struct stage_panel *p, struct stage *stage, const struct 
     }
     if (typed_input(p, stage, e))
         return true;
-    if (e->kind == INPUT_POINTER_MOVE)
-        p->pointed = row_at(p, e->x_px, e->y_px);
+    if (e->kind == INPUT_POINTER_MOVE) {
+        p->pointer_px[0] = e->x_px;
+        p->pointer_px[1] = e->y_px;
+    }
     if (e->x_px < p->left_px)
         return false;
     if (e->kind == INPUT_POINTER_DOWN)
@@ -558,4 +567,9 @@ bool stage_panel_input(struct stage_panel *p, struct stage *stage, const struct 
     else if (e->kind == INPUT_SCROLL)
         scroll(p, -e->scroll_y * p->row_px);
     return e->kind == INPUT_POINTER_DOWN || e->kind == INPUT_SCROLL;
+}
+
+int stage_panel_explained(const struct stage_panel *p)
+{
+    return p->shown ? p->explained : -1;
 }

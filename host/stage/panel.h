@@ -86,5 +86,7 @@ bool stage_panel_place(const struct stage_panel *panel, int row, struct font_box
                        struct font_box *value);
 /* The place of the title of the group that a row is in. */
 bool stage_panel_title(const struct stage_panel *panel, int row, struct font_box *title);
+/* The row that the last picture explains; -1: none. */
+int stage_panel_explained(const struct stage_panel *panel);
 
 #endif

@@ -164,11 +164,59 @@ static void rows_are_shown(void **state)
     stage_destroy(stage);
 }
 
+/* What is explained is what the pointer is on, also where the rows have been scrolled under it
+ * or a group has been folded above it. */
+static void what_is_under_the_pointer_is_explained(void **state)
+{
+    (void)state;
+    struct stage *stage = scene_springs("word", 1, face);
+    struct stage_panel *panel;
+    struct stage_draw_list list = {0};
+    struct font_box slider, value, title;
+    assert_int_equal(stage_panel_create("DejaVuSans", &panel), STAGE_OK);
+    stage_panel_show(panel, true);
+    stage_panel_draw(panel, stage, 900, 500, 1, &list);
+    assert_int_equal(stage_panel_explained(panel), -1);
+    assert_true(stage_panel_place(panel, 3, &slider, &value));
+    const struct input_event move = {
+        .kind = INPUT_POINTER_MOVE, .x_px = value.x0 + 2, .y_px = (value.y0 + value.y1) / 2};
+    stage_panel_input(panel, stage, &move);
+    stage_panel_draw(panel, stage, 900, 500, 1, &list);
+    assert_int_equal(stage_panel_explained(panel), 3);
+    for (int turns = 1; turns <= 3; turns++) {
+        struct input_event wheel = {
+            .kind = INPUT_SCROLL, .scroll_y = -1, .x_px = move.x_px, .y_px = move.y_px};
+        assert_true(stage_panel_input(panel, stage, &wheel));
+        stage_panel_draw(panel, stage, 900, 500, 1, &list);
+        const int row = stage_panel_explained(panel);
+        assert_true(row > 3 || turns == 3); /* a title may be there */
+        assert_true(row < 0 || (stage_panel_place(panel, row, &slider, &value) &&
+                                fabs((value.y0 + value.y1) / 2 - move.y_px) < 40));
+    }
+    struct input_event back = {
+        .kind = INPUT_SCROLL, .scroll_y = 3, .x_px = move.x_px, .y_px = move.y_px};
+    stage_panel_input(panel, stage, &back);
+    stage_panel_draw(panel, stage, 900, 500, 1, &list);
+    assert_int_equal(stage_panel_explained(panel), 3);
+    assert_true(stage_panel_title(panel, 3, &title));
+    const struct input_event fold = {.kind = INPUT_POINTER_DOWN,
+                                     .button = INPUT_BUTTON_LEFT,
+                                     .x_px = title.x0 + 5,
+                                     .y_px = (title.y0 + title.y1) / 2};
+    stage_panel_input(panel, stage, &fold);
+    stage_panel_draw(panel, stage, 900, 500, 1, &list);
+    assert_int_not_equal(stage_panel_explained(panel), 3);
+    stage_draw_finish(&list);
+    stage_panel_destroy(panel);
+    stage_destroy(stage);
+}
+
 int main(int count, char **arguments)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_fits),
         cmocka_unit_test(rows_are_shown),
+        cmocka_unit_test(what_is_under_the_pointer_is_explained),
     };
     folder = count > 1 ? arguments[1] : NULL;
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK) {
