@@ -7,6 +7,7 @@
 
 #include <midi_time.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -432,6 +433,13 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
     if (said)
         tell(p, said);
     return status;
+}
+
+double live_player_due_s(void *player)
+{
+    const struct live_player *p = player;
+    const double due_s = live_source_due_s(p->def.source);
+    return p->began && p->began_s != 0 ? nextafter(p->began_s + due_s, INFINITY) : due_s;
 }
 
 bool live_player_leads(const struct live_player *p)

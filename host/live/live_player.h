@@ -52,6 +52,9 @@ void live_player_destroy(struct live_player *player); /* NULL is fine */
 
 /* For stage_window_def and stage_film_def; context: the player. */
 enum stage_status live_player_before(void *player, struct stage *stage, double now_s);
+/* When a song's next message is due: live_player_before() at that time takes it. INFINITY:
+ * there is none. For films, in which messages have their own times. */
+double live_player_due_s(void *player);
 bool live_player_key(void *player, const struct input_event *event);
 int live_player_readable(void *player);
 

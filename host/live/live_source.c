@@ -7,6 +7,7 @@
 
 #include <midi_internal.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -113,6 +114,17 @@ static bool song_next(struct live_source *s, double now_s, struct midi_message *
         return true;
     }
     return false;
+}
+
+double live_source_due_s(const struct live_source *s)
+{
+    const size_t count = s->song ? midi_song_info(s->song).events_count : 0;
+    for (size_t at = s->song_at; at < count; at++) {
+        const struct midi_song_event e = midi_song_event(s->song, at);
+        if (e.kind == MIDI_SONG_MESSAGE)
+            return (double)e.time_ns / 1e9;
+    }
+    return INFINITY;
 }
 
 static bool client_next(struct live_source *s, struct midi_message *m)

@@ -46,6 +46,8 @@ bool live_source_key(struct live_source *source, const struct input_event *event
 /* The next message that has come, or of the song until second now_s; waits for none. False:
  * there is none. */
 bool live_source_next(struct live_source *source, double now_s, struct midi_message *m);
+/* When the song's next message is due, in its seconds; INFINITY: there is none, or no song. */
+double live_source_due_s(const struct live_source *source);
 /* A descriptor that is readable when there is a message; -1: there is none now. */
 int live_source_descriptor(const struct live_source *source);
 /* What there is to say of the server since the last call: that it has gone, or is back; NULL:

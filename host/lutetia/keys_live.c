@@ -134,6 +134,12 @@ static enum stage_status song_before(void *context, struct stage *stage, double 
     return live_player_before(live->player, stage, now_s);
 }
 
+static double song_due_s(void *context)
+{
+    const struct live *live = context;
+    return live_player_due_s(live->player);
+}
+
 int keys_live_film(const struct keys_live *def)
 {
     struct stage *stage;
@@ -141,6 +147,7 @@ int keys_live_film(const struct keys_live *def)
     struct stage_film_def film = def->film;
     int status = both_make(def, &stage, &live);
     film.before = song_before;
+    film.due_s = song_due_s;
     film.after = stopped;
     film.context = &live;
     if (status == EXIT_SUCCESS && stage_film(stage, &film) != STAGE_OK)

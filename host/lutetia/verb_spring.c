@@ -289,6 +289,12 @@ static enum stage_status frame_before(void *context, struct stage *stage, double
     return s->live.player ? live_player_before(s->live.player, stage, now_s) : STAGE_OK;
 }
 
+static double frame_due_s(void *context)
+{
+    const struct spring *s = context;
+    return s->live.player ? live_player_due_s(s->live.player) : INFINITY;
+}
+
 static enum stage_status frame_over(void *context, struct stage *stage,
                                     const struct stage_draw_list *list,
                                     struct display_image *image)
@@ -393,6 +399,7 @@ static int film_make(struct spring *s, struct stage *stage)
         return EXIT_FAILED;
     s->film.frames = s->frames;
     s->film.before = frame_before;
+    s->film.due_s = frame_due_s;
     s->film.after = frame_after;
     s->film.context = s;
     if (sound_make(s) != EXIT_SUCCESS || map_begin(s, stage) != EXIT_SUCCESS)

@@ -215,6 +215,24 @@ static enum stage_status frame_pass(struct film *f, bool first)
                : status;
 }
 
+/* The stage's steps until then; what is due meanwhile comes at its own time. */
+static enum stage_status steps_run(struct film *f, double now_s)
+{
+    const struct stage_film_def *def = f->def;
+    enum stage_status status = STAGE_OK;
+    while (def->before && def->due_s && status == STAGE_OK) {
+        const double due_s = def->due_s(def->context);
+        if (!(due_s <= now_s))
+            break;
+        status = stage_frame(f->stage, due_s, NULL);
+        if (status == STAGE_OK)
+            status = def->before(def->context, f->stage, due_s);
+    }
+    if (status == STAGE_OK && def->before)
+        status = def->before(def->context, f->stage, now_s);
+    return status == STAGE_OK ? stage_frame(f->stage, now_s, NULL) : status;
+}
+
 static enum stage_status frames_run(struct film *f)
 {
     const struct stage_film_def *def = f->def;
@@ -224,11 +242,7 @@ static enum stage_status frames_run(struct film *f)
     const int settling = (int)lround(def->settle_s * def->fps);
     enum stage_status status = STAGE_OK;
     for (int frame = -settling; frame <= last && status == STAGE_OK; frame++) {
-        const double now_s = (double)(frame + settling) / def->fps;
-        if (def->before)
-            status = def->before(def->context, f->stage, now_s);
-        if (status == STAGE_OK)
-            status = stage_frame(f->stage, now_s, NULL);
+        status = steps_run(f, (double)(frame + settling) / def->fps);
         if (status == STAGE_OK)
             status = frame < 0 ? frame_pass(f, frame == -settling) : frame_put(f, frame, last);
         if (status == STAGE_OK && def->after &&

@@ -44,8 +44,12 @@ struct stage_film_def {
     double settle_s;         /* how long the stage moves before the first picture; 0 */
     enum stage_film_way way; /* EXACT */
     const char *filter;      /* for exact pictures; "gaussian-fast" */
-    /* Called before each picture's steps, for whoever plays the stage; NULL: nobody does. */
+    /* Called before each picture's steps, for whoever plays the stage, and when something is
+     * due; NULL: nobody does. */
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);
+    /* When something is due that has a time of its own, between pictures, too: before() is then
+     * called at that time, and takes it. INFINITY: nothing is. NULL: nothing ever is. */
+    double (*due_s)(void *context);
     /* Called when a picture is drawn, with what it was drawn from, and may change it; then all
      * pictures are drawn, also those that are not written. NULL: nothing is called. */
     enum stage_status (*over)(void *context, struct stage *stage,
