@@ -127,6 +127,14 @@ static char shown(const struct reader_builder *b, char c)
     return c == '\n' || (code && c == '\t') ? c : ' ';
 }
 
+/* A blank after another one, or at the beginning, is none. */
+static bool blank_is_enough(const struct reader_builder *b)
+{
+    const struct reader_block *block = &b->block;
+    char last = block->bytes ? block->text[block->bytes - 1] : ' ';
+    return last == ' ' || last == '\n' || last == '\t';
+}
+
 /* A passage goes on with a paragraph of its own where it gets too long to be set at once: at a
  * blank, or soon behind where one should be. Only between letters. */
 static void passage_split(struct reader_builder *b, const char *at, unsigned look,
@@ -144,9 +152,11 @@ static void passage_split(struct reader_builder *b, const char *at, unsigned loo
     const int first_line = block->first_line, last_line = block->last_line,
               formula = b->formula, rest = b->rest;
     const char letter = b->letter;
+    const bool unspaced = *at != ' ' && !blank_is_enough(b);
     look_end(b);
     reader_block_open(b, READER_PARAGRAPH, first_line, last_line);
     b->block.continues = true;
+    b->block.unspaced = unspaced;
     b->formula = formula;
     b->rest = rest;
     b->letter = letter;
@@ -213,20 +223,12 @@ static void formula_put(struct reader_builder *b, unsigned look, char letter)
         return;
     }
     if (b->block.spans_count)
-        passage_split(b, " ", look, NULL);
+        passage_split(b, "$", look, NULL);
     look_begin(b, (look & ~(unsigned)READER_LINK) | READER_FORMULA, -1, NULL);
     byte_add(b, '$');
     source_add(b, f->inner_begin, f->inner_end, false);
     byte_add(b, '$');
     look_end(b);
-}
-
-/* A blank after another one, or at the beginning, is none. */
-static bool blank_is_enough(const struct reader_builder *b)
-{
-    const struct reader_block *block = &b->block;
-    char last = block->bytes ? block->text[block->bytes - 1] : ' ';
-    return last == ' ' || last == '\n' || last == '\t';
 }
 
 void reader_text_add(struct reader_builder *b, const char *utf8, unsigned look,

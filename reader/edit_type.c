@@ -188,7 +188,8 @@ static bool blank_typed(struct reader_edit *e, const struct spot *s, size_t byte
 {
     const struct reader_block *b = s->block;
     change->caret = byte;
-    if (is_code(b))
+    const bool within = b && s->p == 0 && reader_block_is_cut_off(b) && b->unspaced;
+    if (is_code(b) || (within && e->waits == READER_WAITS_NOTHING))
         return false;
     if (!b || s->p == 0 || e->waits != READER_WAITS_NOTHING)
         return true;

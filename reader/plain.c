@@ -32,11 +32,11 @@ static const char *before_of(const struct reader_block *block)
 }
 
 /* next: the block behind it; NULL: none. Where its length has cut a paragraph, there are
- * blanks, so that the text does not depend on where that is. */
+ * blanks, if there were any, so that the text does not depend on where that is. */
 static const char *behind_of(const struct reader_block *block, const struct reader_block *next)
 {
     if (next && reader_block_is_cut_off(next))
-        return "  ";
+        return next->unspaced ? "" : "  ";
     return before_of(block)[0] == '`' ? "\n```\n\n" : "\n\n";
 }
 

@@ -128,6 +128,7 @@ struct reader_block {
     int items, quotes; /* how many lists and quotes it is in */
     char *marker;      /* "1." or a bullet, of an item's first block; else NULL */
     bool continues;    /* it goes on with a paragraph that a formula, or its length, has cut */
+    bool unspaced;     /* and there was no blank between its first letter and the last one */
     char *text;        /* UTF-8, without control characters but line ends and tabs */
     int bytes;
     struct reader_span *spans;

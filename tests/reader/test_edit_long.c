@@ -40,19 +40,17 @@ static void as_from_scratch(const struct reader_document *d, const char *text)
     reader_files_finish(&files);
 }
 
-/* Types before a word, letter by letter. */
-static void type_before(int number)
+/* Types before these letters, one by one. */
+static void type_before(const char *word)
 {
     static const char typed[] = "xy, another";
     static char wanted[WORDS * ROOM + TYPED];
-    char word[ROOM];
     struct reader_files files;
     struct reader_document *d = read_text(&files, source);
     struct reader_edit *edit;
     struct reader_edit_change change;
-    assert_true(d->blocks_count > 2);
+    assert_true(d->blocks_count >= 2);
     assert_int_equal(reader_edit_create(&d, &files, NULL, &edit), READER_OK);
-    snprintf(word, sizeof word, "w%d ", number);
     const char *in_source = strstr(source, word);
     size_t caret = (size_t)(strstr(d->plain, word) - d->plain);
     for (const char *c = typed; *c; c++) {
@@ -83,12 +81,41 @@ static void long_paragraphs_are_typed_into(void **state)
     for (int i = 0; i < WORDS; i++)
         bytes += (size_t)snprintf(source + bytes, ROOM, "w%d ", i);
     source[bytes - 1] = '\n';
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        type_before(words[k]);
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
+        char word[ROOM];
+        snprintf(word, sizeof word, "w%d ", words[k]);
+        type_before(word);
+    }
+}
+
+enum { HAN = 0x4e00, HAN_COUNT = 14000, HAN_BYTES = 3 };
+
+static void han_put(char *to, int number)
+{
+    const unsigned c = HAN + (unsigned)number;
+    snprintf(to, HAN_BYTES + 1, "%c%c%c", (char)(0xe0 | c >> 12),
+             (char)(0x80 | (c >> 6 & 0x3f)), (char)(0x80 | (c & 0x3f)));
+}
+
+/* Where no blanks are between letters, there is none where the paragraph is cut. */
+static void paragraphs_without_blanks_are_typed_into(void **state)
+{
+    static const int letters[] = {0, 1, 9000, 11263, 11264, 11265, 11266, 13999};
+    (void)state;
+    for (int i = 0; i < HAN_COUNT; i++)
+        han_put(source + HAN_BYTES * i, i);
+    strcpy(source + HAN_BYTES * HAN_COUNT, "\n");
+    for (size_t k = 0; k < sizeof letters / sizeof *letters; k++) {
+        char letter[HAN_BYTES + 1];
+        han_put(letter, letters[k]);
+        type_before(letter);
+    }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(long_paragraphs_are_typed_into)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(long_paragraphs_are_typed_into),
+        cmocka_unit_test(paragraphs_without_blanks_are_typed_into)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
