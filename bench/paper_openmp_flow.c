@@ -5,8 +5,8 @@
  *     faces        parts of water, of pigments above, of pigments in fibers; speeds
  *     flows        for each amount: what goes up over each face, then what that leaves
  *
- * The operations are those of host/paper/model/{soak,film,capillary}.c in the same order; all
- * rows become vectors. */
+ * The operations are those of host/paper/model/{soak,film,capillary}.c in the same order, for
+ * sized stocks; all rows become vectors. */
 #include "paper_openmp.h"
 #include "paper_openmp_rounding.h"
 
@@ -27,8 +27,7 @@ static void water_own(const struct paper_openmp *o, int y)
           *part = term_row(o, T_PART, y);
     const float *absorbency = field_row(o, F_ABSORBENCY, y),
                 *capacity = field_row(o, F_CAPACITY, y), *wet = field_row(o, o->wet_now, y);
-    const double mean = o->config.absorbency, unsized = fmax(1, mean / 0.12),
-                 pull = air->absorption * 10 * mean * unsized * unsized * unsized;
+    const double mean = o->config.absorbency, pull = air->absorption * 10 * mean;
     const float slope = (float)(pull * 0.25), base = (float)(pull * (1 - 0.25) * mean),
                 unit = (float)UNIT;
 #pragma omp simd
@@ -209,14 +208,6 @@ static void edge_own(const struct paper_openmp *o, int y)
     }
 }
 
-/* As model/capillary.c has it. */
-static double threshold_base(const struct paper_openmp *o)
-{
-    const double mean = o->config.absorbency,
-                 sized = fmin(1, fmax(0, (0.2 - mean) / (0.2 - 0.12)));
-    return 1.5 + 0.6 * sized;
-}
-
 static void pores_own(const struct paper_openmp *o, int y)
 {
     const int width = o->config.width;
@@ -226,13 +217,12 @@ static void pores_own(const struct paper_openmp *o, int y)
     float *load = term_row(o, T_LOAD, y), *room = term_row(o, T_ROOM, y),
           *left = term_row(o, T_LEFT, y), *threshold = term_row(o, T_THRESHOLD, y),
           *thin = term_row(o, T_THIN, y);
-    const float unit = (float)UNIT, most = (float)(15 * UNIT), from = (float)(1 / (13 * UNIT)),
-                base = (float)threshold_base(o);
+    const float unit = (float)UNIT, most = (float)(15 * UNIT), from = (float)(1 / (13 * UNIT));
 #pragma omp simd
     for (int x = 0; x < width; x++) {
         room[x] = within((most - load[x]) * from, 0.0f, 1.0f);
         left[x] = greatest((capacity[x] * unit - water[x]) * 0.25f, 0.0f);
-        threshold[x] = within(absorbency[x] * -4.5f + base, 0.05f, 0.98f) *
+        threshold[x] = within(absorbency[x] * -4.5f + 2.1f, 0.05f, 0.98f) *
                        greatest(saturated[x] * -16.0f + 1.0f, 0.0f);
         thin[x] = 1.0f / greatest(water[x], 1.0f);
     }

@@ -37,11 +37,18 @@ static int field_of(enum paper_peer_layer layer, int pigment)
     }
 }
 
+#define SIZED_MOST 0.12 /* the peer has no water that runs in paper without size */
+
 struct paper_openmp *paper_openmp_create(const struct paper_peer_config *config)
 {
     if (config->width < LANES || config->height < 3) {
         bench_fail("the paper's peer takes sheets of 16x3 and more (got %dx%d)", config->width,
                    config->height);
+        return NULL;
+    }
+    if (config->absorbency > SIZED_MOST) {
+        bench_fail("the paper's peer takes stocks of an absorbency of %g or less (got %g)",
+                   SIZED_MOST, config->absorbency);
         return NULL;
     }
     struct paper_openmp *o = calloc(1, sizeof *o);

@@ -170,7 +170,9 @@ static void dry_drops_are_no_ellipses(void **state)
         const double round = off_an_ellipse(corner);
         print_message("%s: %.1f%% off an ellipse in the mean, %.1f%% least, a disc %.1f%%\n",
                       stocks[i], 100 * mean, 100 * least, 100 * round);
-        assert_true(mean >= 0.07 && least >= 0.04 && round < mean / 2);
+        /* on paper without size ink of any shape comes to branches, that of a disc, too */
+        const bool frays = strcmp(stocks[i], "xuan") == 0 || strcmp(stocks[i], "blotting") == 0;
+        assert_true(mean >= 0.07 && least >= 0.04 && round < mean / (frays ? 1.5 : 2));
         paper_sheet_destroy(sheet);
     }
     assert_true(drops == 49 && good >= 46);

@@ -41,7 +41,9 @@ enum {
 /* Fibers that a step's activity may spread by. */
 static int spread_in_a_step(const struct paper_sheet *p)
 {
-    return sheet_has(p, PAPER_PART_SURFACE) ? sheet_around_reach(p) : 1;
+    const int around = sheet_has(p, PAPER_PART_SURFACE) ? sheet_around_reach(p) : 1,
+              creeps = sheet_capillary_passes(p);
+    return around > creeps ? around : creeps;
 }
 
 /* Fibers that stay at rest along a box's sides: a picture looks over the first of them to the

@@ -192,7 +192,7 @@ static void range_inside(int *from, int *length, int all, int rim)
 
 void part_changed(struct part *part, struct box *changed)
 {
-    const int far = ++part->wet_steps + SHEET_LOOK_REACH;
+    const int far = ++part->wet_steps * sheet_capillary_passes(&part->sheet) + SHEET_LOOK_REACH;
     struct box *c = changed;
     *c = part->wet;
     if (c->width < 1)

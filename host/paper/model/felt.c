@@ -6,6 +6,8 @@
  *                bend, and leaves mass where it passes. Bends wander, so fibers curl; lengths
  *                go from a fifth to three times the usual one; no direction is dearer than
  *                another, but by stock.fiber_length: a sheet from a machine has a grain
+ *     pores      in a sheet that is not sized: bundles of fibers side by side, some 3 fibers
+ *                wide, between which water runs
  *     tooth      the felts' marks, as large as stock.grain_px
  *     grit       short hairs and filler: noise of sizes 6 to 1.5. Pigments that granulate
  *                gather in it; with fibers alone they drew a net
@@ -21,23 +23,11 @@
 #include "base/base.h"
 #include "model/clouds.h"
 #include "model/deckle.h"
+#include "model/felt_making.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* What each kind of paper is made of: lengths in fibers of the model, at the stock's own grain
- * and fiber_length. */
-struct recipe {
-    const char *stock;
-    double length;                /* of a usual fiber */
-    double cover;                 /* fibers that lie on one another */
-    double curl;                  /* how fast bends wander */
-    double tooth, fibers, clouds; /* parts of the relief */
-    double grit;                  /* in part in place of the fibers */
-    double laid, laid_step,
-        chain_step; /* the lines' part, and how far apart they are; 0: wove */
-};
 
 /* cold press: a mould-made watercolour paper of cotton, 300 g/m2, with the marks of woollen
  * felts. hot press: the same, pressed between hot rollers. rough: handmade, dried without
@@ -45,13 +35,13 @@ struct recipe {
  * with its wires' lines. xuan: the bark of the wingceltis and rice straw, long fine fibers,
  * unsized, on a screen of bamboo. */
 static const struct recipe recipes[] = {
-    {"cold press", 60, 2.6, .006, .75, .55, .20, .5, 0, 0, 0},
-    {"hot press", 60, 2.6, .006, .40, .85, .30, .3, 0, 0, 0},
-    {"rough", 70, 2.6, .006, .66, .62, .15, .5, 0, 0, 0},
-    {"blotting", 30, 3.4, .014, .30, .85, .40, .3, 0, 0, 0},
-    {"glass", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
-    {"laid", 60, 2.6, .006, .35, .70, .30, .2, .40, 5, 96},
-    {"xuan", 110, 2.0, .004, .20, .95, .35, 0, .15, 6, 120},
+    {"cold press", 60, 2.6, .006, .75, .55, .20, .5, 0, 0, 0, 0},
+    {"hot press", 60, 2.6, .006, .40, .85, .30, .3, 0, 0, 0, 0},
+    {"rough", 70, 2.6, .006, .66, .62, .15, .5, 0, 0, 0, 0},
+    {"blotting", 30, 3.4, .014, .30, .85, .40, .3, 0, 0, 0, .30},
+    {"glass", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+    {"laid", 60, 2.6, .006, .35, .70, .30, .2, .40, 5, 96, 0},
+    {"xuan", 110, 2.0, .004, .20, .95, .35, 0, .15, 6, 120, .5},
 };
 
 enum {
@@ -61,14 +51,13 @@ enum {
     SEED_SIZING,
     SEED_WAVER,
     SEED_FAINT,
-    SEED_GRIT
+    SEED_GRIT,
+    SEED_PORES
 };
-enum {
-    CHANCE_REACH = 1 << 20
-}; /* the number of a fiber's chance that its shape does not use */
-#define STRIDE 0.7
-#define BEND_KEPT 0.985
-#define BEND_FIRST 0.03
+/* Bundles of fibers, in fibers of the stock's own scale. Two to four is what the branches of
+ * ink are wide, and they are as long as water comes in a bundle. */
+#define PORES_LENGTH 60
+#define PORES_WIDTH 2.4
 #define FIBERS_FOR_GRIT 1.0
 #define LAID 0.7 /* of a recipe's lines: they stand out beside washes as smooth as ours */
 
@@ -79,18 +68,6 @@ static const struct recipe *recipe_of(const struct paper_stock *stock)
             return &recipes[i];
     return &recipes[0];
 }
-
-struct making {
-    const struct paper_sheet_config *config;
-    const struct recipe *recipe;
-    int width, height;
-    double scale;   /* fibers of this sheet for one of the stock as it is known */
-    double lean[2]; /* x, y: how much of a fiber's direction counts; the longer is 1 */
-    uint64_t seed;
-    const float *inside; /* of a sheet with a deckle, else NULL: deckle_make() */
-    float *stayed;       /* mass of the fibers that lie in the sheet, where that is not all */
-    bool slowly;         /* all fibers are drawn, also those that do not reach the sheet */
-};
 
 static size_t count_of(const struct making *m)
 {
@@ -126,186 +103,6 @@ static bool cloud_make(const struct making *m, float *out, double finest, double
                               .step = step,
                               .seed = clouds_word(m->seed, which)};
     return clouds_make(out, m->width, m->height, m->config->torus, &of);
-}
-
-/* ---- fibers ---- */
-
-/* Random numbers in a row. */
-struct chances {
-    uint64_t seed, number;
-};
-
-static double chance(struct chances *c)
-{
-    return clouds_chance(c->seed, c->number++);
-}
-
-/* About a bell of deviation 1. */
-static double bell(struct chances *c)
-{
-    uint64_t word = clouds_word(c->seed, c->number++);
-    int64_t sum = 0;
-    for (int i = 0; i < 4; i++)
-        sum += (int64_t)(word >> 16 * i & 0xffff);
-    return ((double)sum * 0x1p-16 - 2) * 1.7320508075688772;
-}
-
-static int around(int at, int length)
-{
-    int place = at % length;
-    return place < 0 ? place + length : place;
-}
-
-/* Leaves `part` around x, y on the four nearest, of which some may be beyond the edge. */
-static void mass_leave_at_edge(const struct making *m, float *mass, double x, double y,
-                               double part)
-{
-    double left = floor(x - 0.5), top = floor(y - 0.5), u = x - 0.5 - left, v = y - 0.5 - top;
-    for (int j = 0; j < 2; j++)
-        for (int i = 0; i < 2; i++) {
-            int column = (int)left + i, row = (int)top + j;
-            if (m->config->torus) {
-                column = around(column, m->width);
-                row = around(row, m->height);
-            } else if (column < 0 || row < 0 || column >= m->width || row >= m->height) {
-                continue;
-            }
-            mass[(size_t)row * (size_t)m->width + (size_t)column] +=
-                (float)(part * (i ? u : 1 - u) * (j ? v : 1 - v));
-        }
-}
-
-/* The same anywhere. */
-static void mass_leave(const struct making *m, float *mass, double x, double y, double part)
-{
-    double u = x - 0.5, v = y - 0.5;
-    if (!(u >= 0 && v >= 0 && u < m->width - 1 && v < m->height - 1)) {
-        mass_leave_at_edge(m, mass, x, y, part);
-        return;
-    }
-    int left = (int)u, top = (int)v;
-    u -= left;
-    v -= top;
-    double before = part * (1 - u), behind = part * u;
-    float *above = mass + (size_t)top * (size_t)m->width + left, *below = above + m->width;
-    above[0] += (float)(before * (1 - v));
-    above[1] += (float)(behind * (1 - v));
-    below[0] += (float)(before * v);
-    below[1] += (float)(behind * v);
-}
-
-static void unit_make(double direction[2])
-{
-    double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1]);
-    direction[0] /= length;
-    direction[1] /= length;
-}
-
-/* A direction by chance, all alike but for the sheet's grain. */
-static void direction_make(const struct making *m, struct chances *c, double direction[2])
-{
-    double squared = 0;
-    do {
-        for (int axis = 0; axis < 2; axis++)
-            direction[axis] = 2 * chance(c) - 1;
-        squared = direction[0] * direction[0] + direction[1] * direction[1];
-    } while (squared > 1 || squared < 1e-4);
-    for (int axis = 0; axis < 2; axis++)
-        direction[axis] *= m->lean[axis];
-    unit_make(direction);
-}
-
-/* Where the sheet is thin, a fiber lies only as far as it reaches. */
-static bool stays(const struct making *m, double x, double y, double reach)
-{
-    const double column = x * m->scale, row = y * m->scale;
-    if (!(column >= 0 && row >= 0 && column < m->width && row < m->height))
-        return false;
-    const double inside = (double)m->inside[(size_t)row * (size_t)m->width + (size_t)column];
-    return inside > reach && inside < m->config->deckle.thin + 2 * m->scale;
-}
-
-/* No mass can come to the sheet from within `reach` of x, y, in fibers of the stock's own
- * scale. */
-static bool beyond(const struct making *m, double x, double y, double reach)
-{
-    const double far = (reach + STRIDE + 1) * m->scale + 2;
-    return !m->slowly && !m->config->torus &&
-           (x * m->scale < -far || y * m->scale < -far || x * m->scale > m->width + far ||
-            y * m->scale > m->height + far);
-}
-
-/* One fiber from x, y, in fibers of the stock's own scale. At finer scales it is as wide as it
- * is there: it is drawn in strands. */
-static void fiber_draw(const struct making *m, float *mass, struct chances *c, double x,
-                       double y)
-{
-    double direction[2], bend = BEND_FIRST * bell(c), u = chance(c);
-    direction_make(m, c, direction);
-    double length = m->recipe->length * (0.2 + 2.8 * u * u);
-    if (beyond(m, x, y, length))
-        return;
-    int strands = m->scale > 1 ? (int)ceil(m->scale) : 1;
-    int pieces = strands;
-    double part = STRIDE * m->scale * m->scale / (strands * pieces);
-    const double reach =
-        m->inside ? deckle_reach(&m->config->deckle, clouds_chance(c->seed, CHANCE_REACH)) : 0;
-    for (double gone = 0; gone < length; gone += STRIDE) {
-        const bool lies = m->inside && stays(m, x, y, reach);
-        for (int piece = 0; piece < pieces && !beyond(m, x, y, 0); piece++) {
-            double ahead = (piece + 0.5) / pieces * STRIDE;
-            for (int strand = 0; strand < strands; strand++) {
-                double aside = (strand + 0.5) / strands - 0.5;
-                const double to_x =
-                                 (x + ahead * direction[0] - aside * direction[1]) * m->scale,
-                             to_y =
-                                 (y + ahead * direction[1] + aside * direction[0]) * m->scale;
-                mass_leave(m, mass, to_x, to_y, part);
-                if (lies)
-                    mass_leave(m, m->stayed, to_x, to_y, part);
-            }
-        }
-        x += STRIDE * direction[0];
-        y += STRIDE * direction[1];
-        double before[2] = {direction[0], direction[1]};
-        direction[0] -= STRIDE * bend * before[1];
-        direction[1] += STRIDE * bend * before[0];
-        unit_make(direction);
-        bend = (bend + m->recipe->curl * bell(c)) * BEND_KEPT;
-    }
-}
-
-/* Those that begin in one square of the stock's scale are the same at every scale. Fibers from
- * beyond the edge reach in. */
-static void fibers_make(const struct making *m, float *mass, const float *clouds)
-{
-    enum { SQUARE = 16 };
-    double mean = m->recipe->length * (0.2 + 2.8 / 3);
-    double each = SQUARE * SQUARE * m->recipe->cover / mean; /* fibers in a square */
-    int reach = m->config->torus ? 0 : (int)ceil(m->recipe->length / SQUARE);
-    int columns = (int)ceil(m->width / (m->scale * SQUARE)),
-        rows = (int)ceil(m->height / (m->scale * SQUARE));
-    memset(mass, 0, count_of(m) * sizeof *mass);
-    for (int row = -reach; row < rows + reach; row++)
-        for (int column = -reach; column < columns + reach; column++) {
-            struct chances c = {
-                clouds_word(clouds_word(m->seed, SEED_FIBERS),
-                            (uint64_t)(row + 4096) << 32 | (uint64_t)(column + 4096)),
-                0};
-            int x = (int)((column + 0.5) * SQUARE * m->scale),
-                y = (int)((row + 0.5) * SQUARE * m->scale);
-            x = x < 0 ? 0 : x < m->width ? x : m->width - 1;
-            y = y < 0 ? 0 : y < m->height ? y : m->height - 1;
-            double cloud = (double)clouds[(size_t)y * (size_t)m->width + (size_t)x];
-            double wanted = each * fmax(0.3, fmin(1.7, 1 + 0.25 * cloud));
-            int count = (int)floor(wanted + chance(&c));
-            for (int i = 0; i < count; i++) {
-                struct chances own = {clouds_word(c.seed, (uint64_t)i + 7), 0};
-                double from_x = (column + chance(&own)) * SQUARE,
-                       from_y = (row + chance(&own)) * SQUARE;
-                fiber_draw(m, mass, &own, from_x, from_y);
-            }
-        }
 }
 
 /* ---- lines of the mould ---- */
@@ -371,7 +168,7 @@ static void marked_find(struct marked *of, const struct making *m, int length, s
     of->count = 0;
     for (int i = torus || from > 0 ? from : 0; i <= to && (torus || i < length); i++) {
         double d = (i + 0.5 - middle) / radius;
-        of->at[of->count] = (size_t)(torus ? around(i, length) : i) * step;
+        of->at[of->count] = (size_t)(torus ? felt_around(i, length) : i) * step;
         of->squared[of->count++] = d * d;
     }
 }
@@ -435,6 +232,21 @@ static bool marks_add(const struct making *m, float *relief, double radius, doub
 
 /* ---- the sheet ---- */
 
+/* Fibers, and where a sheet has them bundles. */
+static void fibers_make(const struct making *m, struct felt *felt, const float *clouds)
+{
+    const struct recipe *of = m->recipe;
+    const struct felt_thrown fibers = {SEED_FIBERS, of->length, of->cover, of->curl, 1},
+                             bundles = {SEED_PORES, PORES_LENGTH, of->pores, of->curl,
+                                        PORES_WIDTH};
+    felt_throw(m, &fibers, felt->mass, clouds);
+    if (!felt->pores)
+        return;
+    felt_throw(m, &bundles, felt->pores, clouds);
+    for (size_t i = 0; i < count_of(m); i++)
+        felt->pores[i] = fminf(1, felt->pores[i]);
+}
+
 static bool parts_make(const struct making *m, struct felt *felt, float *clouds, float *spare)
 {
     const struct recipe *of = m->recipe;
@@ -449,7 +261,7 @@ static bool parts_make(const struct making *m, struct felt *felt, float *clouds,
     }
     bool made = cloud_make(m, clouds, 8 * scale, 256 * scale, 0.75, SEED_CLOUDS);
     if (made)
-        fibers_make(m, felt->mass, clouds);
+        fibers_make(m, felt, clouds);
     level_out(felt->mass, count, 1);
     memcpy(felt->fibers, felt->mass, count * sizeof *felt->mass);
     made = made && marks_add(m, felt->relief, 1.2 * grain, 1, SEED_TOOTH) &&
@@ -513,9 +325,12 @@ static enum paper_status felt_of(const struct paper_sheet_config *config, bool s
                          .mass = calloc(count, sizeof(float)),
                          .fibers = calloc(count, sizeof(float)),
                          .sizing = calloc(count, sizeof(float))};
+    if (m.recipe->pores > 0)
+        out->pores = calloc(count, sizeof *out->pores);
     float *clouds = calloc(count, sizeof *clouds), *spare = calloc(count, sizeof *spare),
           *inside = NULL;
-    bool made = out->relief && out->mass && out->fibers && out->sizing && clouds && spare;
+    bool made = out->relief && out->mass && out->fibers && out->sizing &&
+                (out->pores || m.recipe->pores == 0) && clouds && spare;
     if (made && config->deckled) {
         m.stayed = out->thickness = calloc(count, sizeof *out->thickness);
         m.inside = inside = malloc(count * sizeof *inside);
@@ -550,6 +365,7 @@ void felt_free(struct felt *felt)
     free(felt->mass);
     free(felt->fibers);
     free(felt->sizing);
+    free(felt->pores);
     free(felt->thickness);
     *felt = (struct felt){0};
 }

@@ -12,6 +12,7 @@ struct felt {
     float *mass;      /* how much fiber lies there */
     float *fibers;    /* the same without clouds */
     float *sizing;    /* how much of the size has gone in there */
+    float *pores;     /* 0..1, 1 where a bundle of fibers leads water along; NULL: none does */
     bool smeared;     /* no fibers; the relief is of smears and dust */
     float *thickness; /* of a sheet with a deckle: 0..1, 0 where there is no paper; else NULL */
 };

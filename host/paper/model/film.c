@@ -46,6 +46,7 @@
 
 #define MOBILITY 2.0 /* of spread */
 #define MOBILITY_MOST 4.0
+#define UNSIZED_MOBILITY 4.0 /* more, on a stock that is not sized */
 #define PULL 0.3
 #define SWING (0.75 * (1 + SHEET_ROUND))
 #define SPEED_MOST 0.14
@@ -130,7 +131,8 @@ static void speed_make(struct paper_sheet *p, const struct sheet_terms *terms, u
     kit_f_times(drive, drive, pull);
     kit_f_next(other, terms->deep, axis);
     kit_f_max(deep, terms->deep, other);
-    kit_f_times(ease, p->ease[axis], MOBILITY * p->air.spread);
+    kit_f_times(ease, p->ease[axis],
+                MOBILITY * p->air.spread * (1 + UNSIZED_MOBILITY * sheet_unsized(p)));
     kit_f_mul(ease, ease, deep);
     kit_f_mul(ease, ease, deep);
     kit_f_most(ease, ease, MOBILITY_MOST);
@@ -184,8 +186,9 @@ static void edge_flow_make(struct paper_sheet *p, unsigned axis, CM_field_id_t d
 {
     CM_field_id_t other = p->t[8], bent = p->t[11];
     const double width = sheet_edge_length(p);
-    const double flow = p->air.edge * (EDGE_DRIES * p->air.humidity * width * width +
-                                       EDGE_BALANCE * sqrt(width / p->finer));
+    const double flow =
+        (1 - sheet_unsized(p)) * p->air.edge *
+        (EDGE_DRIES * p->air.humidity * width * width + EDGE_BALANCE * sqrt(width / p->finer));
     kit_f_next(other, p->wet_around, axis);
     kit_f_sub(d, p->wet_around, other);
     kit_f_times(d, d, flow);

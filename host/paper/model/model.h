@@ -21,6 +21,8 @@ enum { SHEET_LOOK_REACH = 1 };
 #define SHEET_PUT_MOST 4.0
 /* The absorbency of a stock above which it is not sized, or less than others. */
 #define SHEET_SIZED_MOST 0.12
+/* ... of a stock without size at all. */
+#define SHEET_UNSIZED_LEAST 0.2
 /* The roughness of what is smooth. */
 #define SHEET_SMEARS 0.09
 /* A stained part times this is 1 or more unless it is 0. */
@@ -257,6 +259,8 @@ void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share);
 enum paper_status sheet_grip_make(struct paper_sheet *p);
 /* How uneven sizing is, 0..1. */
 double sheet_sizing_strength(const struct paper_sheet *p);
+/* 0: the stock is sized; 1: not at all. */
+double sheet_unsized(const struct paper_sheet *p);
 /* Sizing and currents from the seed. Errors: NO_MEMORY. */
 enum paper_status sheet_sizing_make(struct paper_sheet *p);
 /* What a step needs of them at faces and corners; after sheet_faces_make(). Uses t[0..4]. */
@@ -291,7 +295,11 @@ double sheet_edge_length(const struct paper_sheet *p);
 void sheet_paint_sum(struct paper_sheet *p, CM_field_id_t d);
 /* Uses t[7..15]. */
 void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms);
-/* Uses t[7..15], t[32..44]. */
+/* What part of a pigment of that weight goes with water in fibers, 0..1. */
+double sheet_weight_within(const struct paper_sheet *p, double weight);
+/* How often in a step water creeps from a fiber to the next. */
+int sheet_capillary_passes(const struct paper_sheet *p);
+/* All passes of a step. Uses t[7..15], t[32..44]. */
 void sheet_capillary_flow(struct paper_sheet *p, const struct sheet_terms *terms);
 /* Parts of a gradient at the four faces of a fiber, as step.c explains them: out and in at that
  * above a fiber on the axis, and at that below. */

@@ -81,6 +81,13 @@ double sheet_sizing_strength(const struct paper_sheet *p)
     return fmin(1, 2 * p->config.stock.absorbency_variation);
 }
 
+double sheet_unsized(const struct paper_sheet *p)
+{
+    const double sized = (SHEET_UNSIZED_LEAST - p->config.stock.absorbency) /
+                         (SHEET_UNSIZED_LEAST - SHEET_SIZED_MOST);
+    return 1 - fmin(1, fmax(0, sized));
+}
+
 enum paper_status sheet_sizing_make(struct paper_sheet *p)
 {
     const struct paper_sheet_config *config = &p->config;

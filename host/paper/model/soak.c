@@ -47,6 +47,10 @@
 #define HOLE_FROM 12.0
 #define HOLE_STEEPNESS 0.5
 #define DAMP_HELP 0.85
+/* On a stock without size, 1 / sqrt (1 + the first) of a fiber's capacity is damp enough for
+ * water to stand no higher there than the second leaves. */
+#define DAMP_UNSIZED 24.0
+#define DAMP_UNSIZED_HELP 0.98
 #define BAY_LEAST 0.1 /* of `advance`, at the end of a dry spot; at a thin tip it is doubled */
 #define UNBENT_FROM 16.0 /* 1 / the square of the saturation at which bends count no longer */
 #define EMPTY_PART 0.015625 /* of a fiber, that counts as full up to `advance` */
@@ -84,7 +88,7 @@
 /* How much faster a stock takes water in that is not sized, or less than others: in proportion
  * to what it absorbs. (By the cube of that blotting paper takes a drop before it can run, and a
  * wash keeps the strokes it was laid by.) */
-static double unsized(const struct paper_sheet *p)
+static double thirst(const struct paper_sheet *p)
 {
     return fmax(1, p->config.stock.absorbency / SHEET_SIZED_MOST);
 }
@@ -95,7 +99,7 @@ static void sink_in(struct paper_sheet *p)
 {
     CM_field_id_t taken = p->t[8], left = p->t[9], part = p->t[10], moved = p->t[11];
     const double mean = p->config.stock.absorbency,
-                 pull = p->air.absorption * SUCTION * mean * unsized(p);
+                 pull = p->air.absorption * SUCTION * mean * thirst(p);
     kit_f_times(left, p->capacity, p->unit);
     kit_f_sub(left, left, p->page.water);
     kit_f_times(taken, p->page.absorbency, pull * SUCTION_LOCAL);
@@ -113,7 +117,7 @@ static void sink_in(struct paper_sheet *p)
     kit_f_from(left, 1.0, left);
     for (int i = 0; i < p->config.pigments_count; i++) {
         const double *weight = p->config.pigments[i].weight;
-        kit_f_times(moved, part, fmax(weight[0], weight[1]));
+        kit_f_times(moved, part, sheet_weight_within(p, fmax(weight[0], weight[1])));
         if (!sheet_has(p, PAPER_PART_FIXING)) /* what has fallen dry is in the fibers */
             kit_f_max(moved, moved, left);
         kit_f_mul(moved, moved, p->surface[i]);
@@ -381,6 +385,7 @@ static void round_make(const struct paper_sheet *p, CM_field_id_t d)
 static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
 {
     CM_field_id_t advance = p->t[7], help = p->t[8], part = p->t[9];
+    const double unsized = sheet_unsized(p);
     neighbourhood_make(p, part);
     kit_f_times(help, p->wet_part, 4.0);
     kit_f_add(help, part, help);
@@ -397,7 +402,11 @@ static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
     kit_f_mul(help, help, help);
     bend_make(p, part, help);
     kit_f_mul(advance, advance, part);
-    kit_f_times(help, help, -DAMP_HELP);
+    if (unsized > 0) {
+        kit_f_times(help, help, 1 + DAMP_UNSIZED * unsized);
+        kit_f_most(help, help, 1.0);
+    }
+    kit_f_times(help, help, -(DAMP_HELP + unsized * (DAMP_UNSIZED_HELP - DAMP_HELP)));
     kit_f_plus(help, help, 1.0);
     kit_f_mul(advance, advance, help);
     round_make(p, help);
