@@ -1,6 +1,6 @@
 -- Gravity goes once round the word, which falls on the floor, the wall and the ceiling.
 -- stage: spring moon --preset jelly --set side=2400 --set diagonal=2000 --set link=1200 --at 0.6,1.8 --set restitution=0.55 --set left_on=on --set left=-1 --set right_on=on --set right=4.4 --set ceiling_on=on --set ceiling=4 --set collide=on --set show_masses=off --set show_springs=off --view -1.2,-0.2,4.6,4.2 --seconds 12
--- loop: --settle 48 --seconds 12
+-- loop: --settle 60 --seconds 12
 
 local turn = param("turn", 12) -- seconds for all of it
 

@@ -1,6 +1,6 @@
 -- A word swings from its first letter; each time it stands still it is another word.
 -- stage: spring tick --preset pendulum --set drag=0.08 --set show_masses=off --set show_springs=off --view -4.2,-0.2,4.6,6.4 --at 0,5 --seconds 12
--- loop: --settle 61 --seconds 12
+-- loop: --settle 85 --seconds 12
 
 local words = {"tick", "tock", "ticket", "tocsin", "ticking"}
 local every, at = param("every", 2.4), 1

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOMENTS_MAX = 100 };
+enum { MOMENTS_MAX = 100, LEAD_HZ = 60 };
 
 static const double side_usual_px =
     720; /* of a picture whose lines are as wide as the theme says */
@@ -28,6 +28,7 @@ struct film {
         flat; /* for a film without alpha beside pictures with it; else no pixels */
     double px;
     int moments;
+    int64_t led; /* the number of the next sixtieth of a second at which it is led */
     struct video *video;
     struct stage_loop loop, flat_loop; /* of `image` and of `flat`; loop 0: none */
 };
@@ -215,21 +216,32 @@ static enum stage_status frame_pass(struct film *f, bool first)
                : status;
 }
 
-/* The stage's steps until then; what is due meanwhile comes at its own time. */
+/* The stage's steps until then. Whoever plays it leads it sixty times a second, as in a window,
+ * so that a film of few pictures moves like one of many; what is due meanwhile comes at its own
+ * time. */
 static enum stage_status steps_run(struct film *f, double now_s)
 {
     const struct stage_film_def *def = f->def;
     enum stage_status status = STAGE_OK;
-    while (def->before && def->due_s && status == STAGE_OK) {
-        const double due_s = def->due_s(def->context);
-        if (!(due_s <= now_s))
+    while (def->before && status == STAGE_OK) {
+        const double lead_s = (double)f->led / LEAD_HZ,
+                     due_s = def->due_s ? def->due_s(def->context) : INFINITY;
+        if (due_s <= now_s && due_s <= lead_s) {
+            status = stage_frame(f->stage, due_s, NULL);
+            if (status == STAGE_OK)
+                status = def->before(def->context, f->stage, due_s);
+        } else if (lead_s < now_s) {
+            status = def->before(def->context, f->stage, lead_s);
+            if (status == STAGE_OK)
+                status = stage_frame(f->stage, lead_s, NULL);
+            f->led++;
+        } else {
             break;
-        status = stage_frame(f->stage, due_s, NULL);
-        if (status == STAGE_OK)
-            status = def->before(def->context, f->stage, due_s);
+        }
     }
     if (status == STAGE_OK && def->before)
         status = def->before(def->context, f->stage, now_s);
+    f->led = (int64_t)floor(now_s * LEAD_HZ * (1 + 1e-12)) + 1;
     return status == STAGE_OK ? stage_frame(f->stage, now_s, NULL) : status;
 }
 

@@ -44,8 +44,8 @@ struct stage_film_def {
     double settle_s;         /* how long the stage moves before the first picture; 0 */
     enum stage_film_way way; /* EXACT */
     const char *filter;      /* for exact pictures; "gaussian-fast" */
-    /* Called before each picture's steps, for whoever plays the stage, and when something is
-     * due; NULL: nobody does. */
+    /* Called before the steps of each sixtieth of a second and of each picture, for whoever
+     * plays the stage, and when something is due; NULL: nobody does. */
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);
     /* When something is due that has a time of its own, between pictures, too: before() is then
      * called at that time, and takes it. INFINITY: nothing is. NULL: nothing ever is. */

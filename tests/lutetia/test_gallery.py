@@ -52,6 +52,8 @@ def gallery():
                             still("c.png", "stage", "idle.lua", *moment))
         must(led == again, f"{name}: not the same twice")
         must(led != idle, f"{name}: its script changes nothing")
+        slow, fast = (still("a.png", "stage", name, "--seconds", "3", look=["--size", "96x64", "--fps", fps]) for fps in ("4", "60"))
+        must(slow == fast, f"{name}: with few pictures a second it moves otherwise")
 
 
 def png_rows(path):
