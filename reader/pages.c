@@ -74,6 +74,19 @@ static enum reader_status marker_add(struct reader_pages *p, const struct reader
     return status;
 }
 
+/* A quote stands apart from what is before and behind it, an item of a list too. */
+static void quote_part(const struct reader_pages *p, const struct reader_block *block,
+                       struct page_manner *manner)
+{
+    const struct reader_document *d = p->document;
+    const bool first = block == d->blocks, last = block + 1 == d->blocks + d->blocks_count;
+    const double gap = 0.4 * p->setup.size_px;
+    if (block->quotes && (first || block[-1].quotes < block->quotes))
+        manner->before_px = gap;
+    if (block->quotes && (last || block[1].quotes < block->quotes))
+        manner->after_px = gap;
+}
+
 static enum reader_status text_add(struct reader_pages *p, const struct reader_block *block)
 {
     struct paragraph_text t = {0};
@@ -85,6 +98,7 @@ static enum reader_status text_add(struct reader_pages *p, const struct reader_b
         manner.after_px = 0.2 * em;
     else if (!p->behind_head && !block->continues)
         manner.indent_px = 1.2 * em;
+    quote_part(p, block, &manner);
     enum reader_status status = marker_add(p, block, &t, &manner);
     if (status == READER_OK && !pages_block_add(&t, block, 0, block->bytes, 0))
         status = pages_no_memory();

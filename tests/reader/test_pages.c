@@ -174,6 +174,26 @@ static void tables_have_columns_or_are_told(void **state)
     made_finish(&m);
 }
 
+/* It is not taken for a part of the list before it, nor for a paragraph. */
+static void quotes_stand_apart(void **state)
+{
+    (void)state;
+    struct reader_pages_setup setup = plain_setup();
+    struct made m =
+        make("- one\n- two\n\n> three\n>\n> > four\n>\n> five\n\nsix\n\nseven\n", &setup);
+    struct seen s = look(&m, 0);
+    static const char *const words[] = {"one", "two", "three", "four", "five", "six", "seven"};
+    double y[7], gap[6];
+    for (int i = 0; i < 7; i++)
+        y[i] = glyph_of(&s, words[i])->y_px;
+    for (int i = 0; i < 6; i++)
+        gap[i] = y[i + 1] - y[i];
+    for (int i = 1; i < 5; i++)
+        assert_true(gap[i] > fmax(gap[0], gap[5]) + 0.1 * setup.size_px);
+    seen_finish(&s);
+    made_finish(&m);
+}
+
 /* How wide a letter of the code in a quote's item is whose line has so many; *lines: of the
  * page's lines the code's line has so many. */
 static double code_letter(const struct reader_pages_setup *setup, int letters, int *lines)
@@ -400,6 +420,7 @@ int main(void)
         cmocka_unit_test(all_kinds_of_blocks_are_said),
         cmocka_unit_test(notes_stand_where_they_are_called),
         cmocka_unit_test(tables_have_columns_or_are_told),
+        cmocka_unit_test(quotes_stand_apart),
         cmocka_unit_test(wide_code_is_made_smaller),
         cmocka_unit_test(wide_formulas_are_made_smaller),
         cmocka_unit_test(pictures_are_shown),
