@@ -145,12 +145,25 @@ static bool any_cpp(int argc, char **argv)
     return false;
 }
 
-/* The compiler, by the variables that name it. */
-static char *compiler_of(bool cpp)
+/* What the variables name, or the usual compiler. */
+static const char *compiler_of(bool cpp)
 {
-    static char cc[] = "cc", cxx[] = "c++";
-    char *named = getenv(cpp ? "CXX" : "CC");
-    return named && *named ? named : cpp ? cxx : cc;
+    const char *named = getenv(cpp ? "CXX" : "CC");
+    return named && named[strspn(named, " ")] ? named : cpp ? "c++" : "cc";
+}
+
+/* Adds the compiler: the program of that name, or words as make takes them ("ccache gcc").
+ * False: no memory. */
+static bool compiler_add(struct compiler_line *line, const char *named)
+{
+    char *words = strdup(named), *rest;
+    if (!words || access(named, X_OK) == 0) {
+        line_add(line, words);
+        return words != NULL;
+    }
+    for (char *word = strtok_r(words, " ", &rest); word; word = strtok_r(NULL, " ", &rest))
+        line_add(line, word);
+    return true;
 }
 
 /* Adds the program's arguments. Sources of C beside C++ stay C, unless an -x says what all are;
@@ -407,14 +420,16 @@ int verb_cc(int argc, char **argv)
 
     char *include_flag, *library_flag, *runtime_flag;
     const bool cpp = any_cpp(argc, argv);
-    struct compiler_line line = {calloc(3 * (size_t)argc + 14, sizeof(char *)), 0, cpp};
-    if (!line.arguments || asprintf(&include_flag, "-I%s", include) < 0 ||
+    const char *compiler = compiler_of(cpp);
+    struct compiler_line line = {
+        calloc(3 * (size_t)argc + strlen(compiler) / 2 + 14, sizeof(char *)), 0, cpp};
+    if (!line.arguments || !compiler_add(&line, compiler) ||
+        asprintf(&include_flag, "-I%s", include) < 0 ||
         asprintf(&library_flag, "-L%s", library) < 0 ||
         asprintf(&runtime_flag, "-Wl,-rpath,%s", library) < 0)
         return fail("cc", "no memory");
     static char gnu89[] = "-std=gnu89", paris[] = "-lparis", math[] = "-lm";
     static char lines[] = "-g1", undeclared[] = "-Wimplicit-function-declaration";
-    line_add(&line, compiler_of(cpp));
     if (!cpp && !any_starts_with(argc, argv, "-std=")) {
         line_add(&line, gnu89);
         line_add(&line, undeclared);

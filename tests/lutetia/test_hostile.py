@@ -100,6 +100,17 @@ class Hostile(unittest.TestCase):
 
     # ---- input ----
 
+    def test_compiler_of_several_words(self):
+        """CC is one program, or words as make takes them; a program whose name has blanks is one, too."""
+        self.script("good.c", "#include <stdio.h>\n#include <cm/paris.h>\nint main() { puts(\"good\"); return 0; }\n")
+        self.script("c compiler", "#!/bin/sh\nexec cc \"$@\"\n")
+        (self.at / "c compiler").chmod(0o755)
+        for compiler in ("env cc", " env  cc  -O1 ", str(self.at / "c compiler")):
+            with self.subTest(compiler=compiler):
+                done = self.run_it("cc", "good.c", "-o", "words", CC=compiler)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(subprocess.run(["./words"], cwd=self.at, capture_output=True, timeout=SECONDS).stdout, b"good\n")
+
     def test_programs_appear_whole_whatever_else_the_compiler_writes(self):
         """(security.md 11) Files whose names the compiler derives from the program's are the same as without `lutetia cc`; an old program
         stays after a failure."""
