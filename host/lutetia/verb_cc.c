@@ -39,7 +39,8 @@
 struct compiler_line {
     char **arguments;
     int count;
-    bool cpp; /* of the C++ compiler */
+    bool cpp;    /* of the C++ compiler */
+    char *words; /* its name, in which the first arguments are */
 };
 
 static void line_add(struct compiler_line *line, char *argument)
@@ -156,12 +157,16 @@ static const char *compiler_of(bool cpp)
  * False: no memory. */
 static bool compiler_add(struct compiler_line *line, const char *named)
 {
-    char *words = strdup(named), *rest;
-    if (!words || access(named, X_OK) == 0) {
-        line_add(line, words);
-        return words != NULL;
+    char *rest;
+    line->words = strdup(named);
+    if (!line->words)
+        return false;
+    if (access(named, X_OK) == 0) {
+        line_add(line, line->words);
+        return true;
     }
-    for (char *word = strtok_r(words, " ", &rest); word; word = strtok_r(NULL, " ", &rest))
+    for (char *word = strtok_r(line->words, " ", &rest); word;
+         word = strtok_r(NULL, " ", &rest))
         line_add(line, word);
     return true;
 }
@@ -422,7 +427,7 @@ int verb_cc(int argc, char **argv)
     const bool cpp = any_cpp(argc, argv);
     const char *compiler = compiler_of(cpp);
     struct compiler_line line = {
-        calloc(3 * (size_t)argc + strlen(compiler) / 2 + 14, sizeof(char *)), 0, cpp};
+        calloc(3 * (size_t)argc + strlen(compiler) / 2 + 14, sizeof(char *)), 0, cpp, NULL};
     if (!line.arguments || !compiler_add(&line, compiler) ||
         asprintf(&include_flag, "-I%s", include) < 0 ||
         asprintf(&library_flag, "-L%s", library) < 0 ||
@@ -455,5 +460,6 @@ int verb_cc(int argc, char **argv)
     free(include);
     free(library);
     free(line.arguments);
+    free(line.words);
     return status;
 }
