@@ -32,7 +32,9 @@
 #define UNSIZED_CONDUCTION 1.0 /* of one without size, in a pass */
 #define THRESHOLD_BASE 2.1     /* of a sized stock */
 #define THRESHOLD_SLOPE 4.5
-#define UNSIZED_SLOPE 3.4 /* by absorbency beside the stock's own, where it is 0 */
+/* Of a stock without size: a fiber that absorbs as the stock's mean says has the threshold 0,
+ * one that absorbs a tenth of the mean less has this / 10. */
+#define UNSIZED_SLOPE 3.4
 enum { UNSIZED_PASSES = 2 };
 #define THRESHOLD_LEAST 0.05
 #define THRESHOLD_MOST 0.98

@@ -47,8 +47,8 @@
 #define HOLE_FROM 12.0
 #define HOLE_STEEPNESS 0.5
 #define DAMP_HELP 0.85
-/* On a stock without size, 1 / sqrt (1 + the first) of a fiber's capacity is damp enough for
- * water to stand no higher there than the second leaves. */
+/* On a stock without size a fiber is as damp as it can be from a saturation of a fifth on, and
+ * `advance` is lowered by the second there: a film runs over damp paper. */
 #define DAMP_UNSIZED 24.0
 #define DAMP_UNSIZED_HELP 0.98
 #define BAY_LEAST 0.1 /* of `advance`, at the end of a dry spot; at a thin tip it is doubled */
