@@ -89,7 +89,8 @@ static void look_begin(struct reader_builder *b, unsigned look, int note, const 
     struct reader_block *block = &b->block;
     struct reader_span *last =
         block->spans_count ? &block->spans[block->spans_count - 1] : NULL;
-    if (last && last->look == look && !(look & (READER_FORMULA | READER_NOTE)) &&
+    const unsigned alone = READER_FORMULA | READER_NOTE | READER_IMAGE;
+    if (last && last->look == look && !(look & alone) &&
         (target ? last->target && strcmp(last->target, target) == 0 : !last->target))
         return;
     b->targets_bytes += target ? strlen(target) : 0;
@@ -261,6 +262,19 @@ void reader_text_add(struct reader_builder *b, const char *utf8, unsigned look,
     }
 }
 
+void reader_image_add(struct reader_builder *b, const char *caption, unsigned look,
+                      const char *target, struct reader_asked asked)
+{
+    if (b->block.spans_count)
+        passage_split(b, "!", look, NULL);
+    look_begin(b, look | READER_IMAGE, -1, target);
+    for (const char *at = caption; *at && b->status == READER_OK; at++)
+        byte_add(b, (unsigned char)*at < 0x20 || *at == 0x7f ? ' ' : *at);
+    look_end(b);
+    if (b->status == READER_OK)
+        b->block.spans[b->block.spans_count - 1].asked = asked;
+}
+
 void reader_code_add(struct reader_builder *b, const char *utf8, unsigned look)
 {
     look_begin(b, look, -1, NULL);
@@ -308,6 +322,7 @@ void reader_block_open(struct reader_builder *b, enum reader_kind kind, int firs
     b->block = (struct reader_block){.kind = kind,
                                      .items = b->items,
                                      .quotes = b->quotes,
+                                     .align = b->align,
                                      .marker = b->marker,
                                      .source = b->document->sources_count,
                                      .first_line = first_line,

@@ -13,6 +13,7 @@ struct reader_builder {
     bool in_note; /* blocks are those of the last note */
     int note_bytes;
     int items, quotes;
+    enum reader_align align;
     size_t targets_bytes; /* of links */
     char *marker;         /* of the item that has no block yet */
     int marker_items;     /* and how many lists that is in */
@@ -35,7 +36,10 @@ void reader_block_close(struct reader_builder *b);
 /* Appends letters to it. target: of a link; copied. */
 void reader_text_add(struct reader_builder *b, const char *utf8, unsigned look,
                      const char *target);
-/* The same, formulas being what is written there: code. */
+/* A picture among letters, its caption as it is: all of one span. */
+void reader_image_add(struct reader_builder *b, const char *caption, unsigned look,
+                      const char *target, struct reader_asked asked);
+/* The same as letters, formulas being what is written there: code. */
 void reader_code_add(struct reader_builder *b, const char *utf8, unsigned look);
 /* A cell of a row ends, and another begins. */
 void reader_cell_end(struct reader_builder *b);

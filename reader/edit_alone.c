@@ -13,6 +13,7 @@
  *   fences. */
 #include "edit_internal.h"
 #include "edit_lines.h"
+#include "tag.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -166,11 +167,23 @@ static bool formulas_stand_alone(const struct reader_bytes *source, const struct
     return begin == a->begin && end == a->end && !reader_mask_is_fenced(s, (int)begin);
 }
 
+/* Whether tags in them may hold blocks: where others stand. */
+static bool has_holders(const char *s, size_t bytes)
+{
+    const char *const end = s + bytes;
+    for (const char *at = s; (at = memchr(at, '<', (size_t)(end - at))); at++) {
+        struct tag tag;
+        if (tag_read(at, &tag) && tag_is_block(&tag))
+            return true;
+    }
+    return false;
+}
+
 /* Whether nothing in these lines goes on behind them. */
 static bool is_plain(const char *s, size_t bytes)
 {
     return bytes && s[0] != ' ' && s[0] != '\t' && !has_any(s, bytes, "\r") &&
-           !edit_goes_on(s, bytes);
+           !edit_goes_on(s, bytes) && !has_holders(s, bytes);
 }
 
 /* Whether fences there are what they are alone to who looks for formulas. */

@@ -100,11 +100,12 @@ static bool is_same_text(const char *a, const char *b)
 /* Whether two blocks are of one kind and stand alike, whatever they say. */
 static bool stand_alike(const struct reader_block *a, const struct reader_block *b)
 {
-    return a->kind == b->kind && a->level == b->level && a->items == b->items &&
-           a->quotes == b->quotes && is_same_text(a->marker, b->marker) && !a->continues &&
-           !b->continues && is_same_text(a->info, b->info) &&
-           is_same_text(a->target, b->target) && !a->include && !b->include &&
-           reader_beside_same(&a->beside, &b->beside) && a->head == b->head &&
+    return a->kind == b->kind && a->align == b->align && a->level == b->level &&
+           a->items == b->items && a->quotes == b->quotes &&
+           is_same_text(a->marker, b->marker) && !a->continues && !b->continues &&
+           is_same_text(a->info, b->info) && is_same_text(a->target, b->target) &&
+           !a->include && !b->include && reader_beside_same(&a->beside, &b->beside) &&
+           reader_asked_same(&a->asked, &b->asked) && a->head == b->head &&
            a->columns == b->columns && a->number == b->number &&
            (a->kind != READER_ROW || memcmp(a->aligns, b->aligns, sizeof a->aligns) == 0);
 }
@@ -116,7 +117,8 @@ static bool say_alike(const struct reader_block *a, const struct reader_block *b
     for (int i = 0; i < a->spans_count && same; i++) {
         const struct reader_span *x = &a->spans[i], *y = &b->spans[i];
         same = x->begin == y->begin && x->end == y->end && x->look == y->look &&
-               x->note == y->note && is_same_text(x->target, y->target);
+               x->note == y->note && reader_asked_same(&x->asked, &y->asked) &&
+               is_same_text(x->target, y->target);
     }
     return same;
 }

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 struct walk {
     const struct reader_block *block;
@@ -355,11 +356,35 @@ static bool note_take(struct walk *w, const struct reader_span *span)
     return behind >= 0;
 }
 
+/* A picture of a tag, or one without a caption: all of it is each of its letters. */
+static bool image_take(struct walk *w, const struct reader_span *span)
+{
+    const int from = w->at;
+    for (int tries = 0; tries < 64 && w->at + 4 < w->end; tries++) {
+        const char *s = w->s + w->at;
+        int behind = strncasecmp(s, "<img", 4) == 0 ? brackets_behind(w, w->at)
+                     : strncmp(s, "![](", 4) == 0   ? brackets_behind(w, w->at + 3)
+                                                    : -1;
+        if (behind >= 0) {
+            const int at = w->at;
+            for (int i = span->begin; i < span->end; i++)
+                byte_keep(w, at, behind);
+            return true;
+        }
+        if (*s == '!' || !sign_skip(w))
+            break;
+    }
+    w->at = from;
+    return false;
+}
+
 static void letters_walk(struct walk *w)
 {
     const struct reader_block *b = w->block;
     for (int i = 0; i < b->spans_count; i++) {
         const struct reader_span *span = &b->spans[i];
+        if (span->look & READER_IMAGE && image_take(w, span))
+            continue;
         look_change(w, i ? span - 1 : NULL, span);
         while (w->map->count < span->end) {
             const int from = w->at;

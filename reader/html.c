@@ -23,12 +23,13 @@ static const char style_begin[] =
     ".marker{display:inline-block;min-width:1.2em;margin-left:-1.5em;padding-right:.3em}\n"
     "blockquote{margin:.4em 1.5em}\n"
     "figure{margin:1em 0;text-align:center}\n"
-    "figure img{max-width:100%}\n"
+    "img{max-width:100%}\n"
+    "img.among{vertical-align:baseline}\n"
     "figcaption{font-size:.92em}\n" HTML_BESIDE_STYLE ".math{text-align:center}\n"
     ".formula{filter:var(--formula)}\n"
     "table{border-collapse:collapse;font-size:.92em;margin:.6em 0}\n"
     "td,th{padding:.1em .6em;vertical-align:top;border-top:1px solid var(--struck)}\n"
-    "sup{line-height:0}\n"
+    "sup,sub{line-height:0}\n"
     "sup a,.sign{text-decoration:none}\n"
     "mark{background:var(--marked);color:inherit}\n"
     "mark.noted{background:var(--noted)}\n"
@@ -195,6 +196,14 @@ static void name_put(struct html *h, const struct reader_block *block)
     fprintf(h->f, " id=\"b.%d\"", (int)(block - d->blocks));
 }
 
+/* Where its lines stand, if the document says so. */
+static void align_put(struct html *h, const struct reader_block *block)
+{
+    static const char *const names[] = {"", "left", "center", "right"};
+    if (block->align != READER_ALIGN_USUAL)
+        fprintf(h->f, " style=\"text-align:%s\"", names[block->align]);
+}
+
 static void marker_put(struct html *h, const struct reader_block *block)
 {
     if (!block->marker)
@@ -214,6 +223,7 @@ static void simple_put(struct html *h, const struct reader_block *block, const c
 {
     fprintf(h->f, "<%s", tag);
     name_put(h, block);
+    align_put(h, block);
     fputs(">", h->f);
     marker_put(h, block);
     whole_put(h, block);
@@ -254,6 +264,7 @@ static void picture_put(struct html *h, const struct reader_block *block)
     if (!beside) {
         fputs("<figure", h->f);
         name_put(h, block);
+        align_put(h, block);
     }
     fputs(">", h->f);
     const bool found = html_picture_put(h, block);

@@ -69,6 +69,9 @@ void html_orphans_put(struct html *h);
 /* A formula, dollars and all; false: it stands as it is written. */
 bool html_formula_put(struct html *h, const char *tex, int bytes, bool display);
 bool html_picture_put(struct html *h, const struct reader_block *block);
+/* A picture among letters; false: it is not found. */
+bool html_image_put(struct html *h, const struct reader_block *block,
+                    const struct reader_span *span);
 /* A figure's tag but for its end, if text flows around it. False: nothing was written. */
 bool html_beside_put(struct html *h, const struct reader_block *block);
 

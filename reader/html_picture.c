@@ -154,26 +154,73 @@ static void shape_put(struct html *h, const struct reader_block *block, const ch
     fputs(")\"", h->f);
 }
 
-bool html_picture_put(struct html *h, const struct reader_block *block)
+/* How large it is meant to be; browsers show no picture larger than it is. */
+static void asked_put(struct html *h, struct reader_asked asked)
+{
+    if (!asked.width_px && !asked.percent && !asked.height_px)
+        return;
+    fputs(" style=\"", h->f);
+    if (asked.width_px)
+        fprintf(h->f, "width:%dpx;", asked.width_px);
+    else if (asked.percent)
+        fprintf(h->f, "max-width:%d%%;", asked.percent);
+    if (asked.height_px)
+        fprintf(h->f, "max-height:%dpx;", asked.height_px);
+    fputs("\"", h->f);
+}
+
+/* The file of a picture. Owns: the caller frees it; NULL: it is not found. */
+static char *png_read(struct html *h, int source, const char *target, size_t *bytes)
 {
     char *png = NULL;
-    size_t bytes = 0;
-    FILE *f = h->setup->picture && block->target ? open_memstream(&png, &bytes) : NULL;
+    *bytes = 0;
+    FILE *f = h->setup->picture && target ? open_memstream(&png, bytes) : NULL;
     if (!f)
-        return false;
-    bool found = h->setup->picture(h->setup->picture_user, block->source, block->target, f);
-    found = fclose(f) == 0 && found;
-    if (found) {
-        fputs("<img", h->f);
-        shape_put(h, block, png, bytes);
-        fputs(" alt=\"", h->f);
-        html_put(h, block->text, (size_t)block->bytes);
-        fputs("\" src=\"data:image/png;base64,", h->f);
-        base64_put(h, (const unsigned char *)png, bytes);
-        fputs("\">", h->f);
-    }
+        return NULL;
+    const bool found = h->setup->picture(h->setup->picture_user, source, target, f);
+    if (fclose(f) == 0 && found)
+        return png;
     free(png);
-    return found;
+    return NULL;
+}
+
+static void png_put(struct html *h, const char *png, size_t bytes, const char *says,
+                    size_t says_bytes)
+{
+    fputs(" alt=\"", h->f);
+    html_put(h, says, says_bytes);
+    fputs("\" src=\"data:image/png;base64,", h->f);
+    base64_put(h, (const unsigned char *)png, bytes);
+    fputs("\">", h->f);
+}
+
+bool html_picture_put(struct html *h, const struct reader_block *block)
+{
+    size_t bytes;
+    char *png = png_read(h, block->source, block->target, &bytes);
+    if (!png)
+        return false;
+    fputs("<img", h->f);
+    shape_put(h, block, png, bytes);
+    if (!block->beside.round && !block->beside.shape)
+        asked_put(h, block->asked);
+    png_put(h, png, bytes, block->text, (size_t)block->bytes);
+    free(png);
+    return true;
+}
+
+bool html_image_put(struct html *h, const struct reader_block *block,
+                    const struct reader_span *span)
+{
+    size_t bytes;
+    char *png = png_read(h, block->source, span->target, &bytes);
+    if (!png)
+        return false;
+    fputs("<img class=\"among\"", h->f);
+    asked_put(h, span->asked);
+    png_put(h, png, bytes, block->text + span->begin, (size_t)(span->end - span->begin));
+    free(png);
+    return true;
 }
 
 void html_picture_finish(struct html *h)

@@ -107,10 +107,9 @@ static bool link_begin(struct html *h, const struct reader_block *block,
 static const struct {
     unsigned look;
     const char *begin, *end;
-} tags[] = {{READER_HEAVY, "<strong>", "</strong>"},
-            {READER_SLANTED, "<em>", "</em>"},
-            {READER_STRUCK, "<s>", "</s>"},
-            {READER_CODE, "<code>", "</code>"}};
+} tags[] = {{READER_HEAVY, "<strong>", "</strong>"}, {READER_SLANTED, "<em>", "</em>"},
+            {READER_STRUCK, "<s>", "</s>"},          {READER_RAISED, "<sup>", "</sup>"},
+            {READER_LOWERED, "<sub>", "</sub>"},     {READER_CODE, "<code>", "</code>"}};
 enum { TAGS = sizeof tags / sizeof *tags };
 
 static void note_call(struct html *h, const struct reader_span *span, const char *text)
@@ -154,6 +153,8 @@ static void piece_put(struct html *h, const struct reader_block *block,
         fputs(h->typed ? "<mark class=\"noted\">" : "<mark>", h->f);
     if (look & READER_NOTE) {
         note_call(h, span, text);
+    } else if (look & READER_IMAGE && html_image_put(h, block, span)) {
+        linked = false; /* all of it is seen */
     } else {
         linked = look & READER_LINK && link_begin(h, block, span);
         for (int i = 0; i < TAGS; i++)
@@ -171,7 +172,7 @@ static void piece_put(struct html *h, const struct reader_block *block,
 
 void html_block_text(struct html *h, const struct reader_block *block, int from, int to)
 {
-    const unsigned whole = READER_NOTE | READER_FORMULA;
+    const unsigned whole = READER_NOTE | READER_FORMULA | READER_IMAGE;
     int k = 0;
     for (int at = from; at < to;) {
         html_events_put(h, block, at);

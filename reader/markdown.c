@@ -1,69 +1,18 @@
-/* markdown.c - Markdown by cmark-gfm, its tree as blocks: see reader_document.h. */
-#include "builder.h"
-#include "cmark_library.h"
+/* markdown.c - Markdown by cmark-gfm, its tree as blocks: see reader_document.h and
+ * markdown_internal.h. */
+#include "markdown_internal.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A list that the walk is in: the number of its next item; -1: bullets. */
-struct list {
-    long next;
-    bool bracket; /* 1) */
-};
-
-struct walk {
-    struct reader_builder b;
-    const int *lines; /* where each line of the source begins */
-    int lines_count;
-    int slanted, heavy, struck;
-    const char *link, *around; /* where letters lead to; and those around a picture */
-    struct list *lists;
-    int lists_count, lists_capacity;
-    int notes_before; /* of other sources */
-    int labels;       /* whose tags are open */
-    int ends;         /* lines that tags have ended, before the next letter */
-    unsigned ends_look;
-    cmark_node *table;
-};
-
 static bool is_type(cmark_node *node, const char *type)
 {
     return strcmp(cmark.node_get_type_string(node), type) == 0;
 }
 
-static unsigned look_of(const struct walk *w)
-{
-    return (w->slanted ? (unsigned)READER_SLANTED : 0) |
-           (w->heavy ? (unsigned)READER_HEAVY : 0) | (w->struck ? (unsigned)READER_STRUCK : 0) |
-           (w->link ? (unsigned)READER_LINK : 0);
-}
-
-static void open_block(struct walk *w, enum reader_kind kind, cmark_node *node)
-{
-    reader_block_open(&w->b, kind, cmark.node_get_start_line(node),
-                      cmark.node_get_end_line(node));
-}
-
-static char *copy_of(struct walk *w, const char *text)
-{
-    char *copy = text && *text ? strdup(text) : NULL;
-    if (text && *text && !copy)
-        reader_builder_fail(&w->b);
-    return copy;
-}
-
 /* ---- blocks ---- */
-
-/* The last line's end of what was read as it is. */
-static void last_line_end_drop(struct reader_block *block)
-{
-    if (!block->bytes || block->text[block->bytes - 1] != '\n')
-        return;
-    block->text[--block->bytes] = '\0';
-    block->spans[block->spans_count - 1].end = block->bytes;
-}
 
 /* Whether one of the words behind an info string's first is this one. */
 static bool info_says(const char *info, const char *word)
@@ -106,57 +55,15 @@ static void code_read(struct walk *w, cmark_node *node)
     bool live = lua || (info && first == 1 && *info == 'c' && info_says(info, "paris"));
     bool math = info && first == 4 && strncmp(info, "math", 4) == 0 &&
                 strlen(cmark.node_get_literal(node)) <= READER_FORMULA_BYTES;
-    open_block(w, math ? READER_MATH : live ? READER_LIVE : READER_CODE_BLOCK, node);
-    w->b.block.info = copy_of(w, info);
+    walk_block_open(w, math ? READER_MATH : live ? READER_LIVE : READER_CODE_BLOCK, node);
+    w->b.block.info = walk_copy(w, info);
     w->b.block.stage_program = live && !lua;
     if (live)
         stage_read(info, &w->b.block);
     reader_code_add(&w->b, cmark.node_get_literal(node), math ? READER_FORMULA : READER_CODE);
     if (w->b.status == READER_OK)
-        last_line_end_drop(&w->b.block);
+        walk_line_end_drop(&w->b.block);
     reader_block_close(&w->b);
-}
-
-static bool is_html(cmark_node *node)
-{
-    return cmark.node_get_type(node) == CMARK_NODE_HTML_INLINE;
-}
-
-/* Whether it is a label's tag, which nobody reads. */
-static bool label_read(struct walk *w, const char *tag)
-{
-    const struct reader_document *d = w->b.document;
-    size_t bytes;
-    const char *name = reader_tag_label(tag, &bytes);
-    if (w->labels && strcmp(tag, "</a>") == 0) {
-        w->labels--;
-        return true;
-    }
-    if (!name || w->b.in_note || d->labels_count >= READER_LABELS_MAX)
-        return false;
-    reader_label_set(&w->b, name, bytes);
-    w->labels++;
-    return true;
-}
-
-/* The picture that is all of its paragraph, but for labels before it; else NULL. */
-static cmark_node *picture_of(const struct walk *w, cmark_node *paragraph)
-{
-    cmark_node *child = cmark.node_first_child(paragraph);
-    size_t bytes;
-    bool open = false; /* a label's tag */
-    while (child && !w->b.in_note) {
-        const bool html = is_html(child),
-                   begins = html && reader_tag_label(cmark.node_get_literal(child), &bytes),
-                   ends = html && open && strcmp(cmark.node_get_literal(child), "</a>") == 0;
-        if (!begins && !ends && cmark.node_get_type(child) != CMARK_NODE_SOFTBREAK)
-            break;
-        open = begins || (open && !ends);
-        child = cmark.node_next(child);
-    }
-    return child && cmark.node_get_type(child) == CMARK_NODE_IMAGE && !cmark.node_next(child)
-               ? child
-               : NULL;
 }
 
 /* Where a link leads to that is all of its paragraph, and whose title says that it is included;
@@ -169,43 +76,6 @@ static const char *included_by(const struct walk *w, cmark_node *paragraph)
                       !w->b.items && !w->b.quotes;
     const char *title = link ? cmark.node_get_title(child) : NULL;
     return title && strcmp(title, "include") == 0 ? cmark.node_get_url(child) : NULL;
-}
-
-/* Behind the comments that a text begins with; a comment that does not end is all of it. */
-static const char *comments_skip(const char *text)
-{
-    while (strncmp(text, "<!--", 4) == 0) {
-        const char *end = strstr(text + 4, "-->");
-        text = end ? end + 3 : text + strlen(text);
-        text += strspn(text, " \t\n");
-    }
-    return text;
-}
-
-static bool only_breaks(const char *text)
-{
-    for (const char *at = NULL; at != text;) {
-        at = text;
-        text = reader_tag_break(text + strspn(text, " \t\n"));
-    }
-    return !*text;
-}
-
-static void html_read(struct walk *w, cmark_node *node)
-{
-    const char *text = cmark.node_get_literal(node);
-    if (text && only_breaks(text))
-        return;
-    if (text && strncmp(text, "<!--", 4) == 0) {
-        text = comments_skip(text);
-        if (!*text)
-            return;
-    }
-    open_block(w, READER_HTML, node);
-    reader_code_add(&w->b, text, READER_CODE);
-    if (w->b.status == READER_OK)
-        last_line_end_drop(&w->b.block);
-    reader_block_close(&w->b);
 }
 
 /* Its number or bullet; a task's box. */
@@ -241,7 +111,7 @@ static void marker_flush(struct walk *w, cmark_node *node)
 {
     if (!w->b.marker)
         return;
-    open_block(w, READER_PARAGRAPH, node);
+    walk_block_open(w, READER_PARAGRAPH, node);
     reader_block_close(&w->b);
 }
 
@@ -250,7 +120,7 @@ static void row_begin(struct walk *w, cmark_node *node, bool head)
     struct reader_block *block = &w->b.block;
     int columns = cmark.gfm_extensions_get_table_columns(w->table);
     const uint8_t *aligns = cmark.gfm_extensions_get_table_alignments(w->table);
-    open_block(w, READER_ROW, node);
+    walk_block_open(w, READER_ROW, node);
     block->table = w->b.document->tables_count - 1;
     block->head = head;
     block->columns = columns;
@@ -301,25 +171,7 @@ static void note_begin(struct walk *w, cmark_node *node)
 
 static void code_span_read(struct walk *w, cmark_node *node)
 {
-    reader_code_add(&w->b, cmark.node_get_literal(node), look_of(w) | READER_CODE);
-}
-
-/* A picture among letters is its caption, which leads to its file. */
-static void picture_enter(struct walk *w, cmark_node *node)
-{
-    w->slanted++;
-    w->around = w->link;
-    if (w->b.block.kind != READER_PICTURE)
-        w->link = cmark.node_get_url(node);
-}
-
-/* Tags have ended lines before the letter that comes now; none at a text's ends. */
-static void ends_add(struct walk *w)
-{
-    struct reader_builder *b = &w->b;
-    for (; w->ends; w->ends--)
-        if (b->block.bytes)
-            reader_text_add(b, b->block.kind == READER_ROW ? " " : "\n", w->ends_look, w->link);
+    reader_code_add(&w->b, cmark.node_get_literal(node), walk_look(w) | READER_CODE);
 }
 
 static void inline_enter(struct walk *w, cmark_node *node)
@@ -327,23 +179,23 @@ static void inline_enter(struct walk *w, cmark_node *node)
     struct reader_builder *b = &w->b;
     cmark_node_type type = cmark.node_get_type(node);
     const char *text = cmark.node_get_literal(node);
-    if (type == CMARK_NODE_HTML_INLINE && reader_tag_break(text) != text) {
-        w->ends_look = w->ends++ ? w->ends_look : look_of(w);
+    if (type == CMARK_NODE_HTML_INLINE) {
+        html_inline(w, text);
         return;
     }
+    if (w->pictures)
+        return;
     if (text || type == CMARK_NODE_LINEBREAK)
-        ends_add(w);
+        walk_ends_add(w);
     if (type == CMARK_NODE_TEXT)
-        reader_text_add(b, text, look_of(w), w->link);
+        reader_text_add(b, text, walk_look(w), walk_link(w));
     else if (type == CMARK_NODE_SOFTBREAK && !w->ends)
-        reader_text_add(b, " ", look_of(w), w->link);
+        reader_text_add(b, " ", walk_look(w), walk_link(w));
     else if (type == CMARK_NODE_LINEBREAK)
-        reader_text_add(b, b->block.kind == READER_ROW ? " " : "\n", look_of(w), w->link);
+        reader_text_add(b, b->block.kind == READER_ROW ? " " : "\n", walk_look(w),
+                        walk_link(w));
     else if (type == CMARK_NODE_CODE)
         code_span_read(w, node);
-    else if (type == CMARK_NODE_HTML_INLINE && strncmp(text, "<!--", 4) != 0 &&
-             !label_read(w, text))
-        reader_text_add(b, text, look_of(w) | READER_CODE, NULL);
     else if (type == CMARK_NODE_FOOTNOTE_REFERENCE && text)
         reader_number_add(b, w->notes_before + atoi(text));
     else if (type == CMARK_NODE_EMPH)
@@ -391,30 +243,42 @@ static bool table_enter(struct walk *w, cmark_node *node)
     return true;
 }
 
+/* What ends in it is open no longer behind it. */
+static bool holds_blocks(cmark_node *node)
+{
+    const cmark_node_type type = cmark.node_get_type(node);
+    return type == CMARK_NODE_ITEM || type == CMARK_NODE_BLOCK_QUOTE ||
+           type == CMARK_NODE_FOOTNOTE_DEFINITION || is_type(node, "tasklist");
+}
+
 static void block_enter(struct walk *w, cmark_node *node)
 {
     cmark_node_type type = cmark.node_get_type(node);
+    w->html.depth += holds_blocks(node);
     w->ends = 0;
+    w->pictures = 0;
+    html_looks_end(w);
     if (table_enter(w, node))
         return;
-    w->labels = 0;
-    if (type == CMARK_NODE_PARAGRAPH) {
+    if (type == CMARK_NODE_PARAGRAPH && !w->b.in_note && html_is_pictures(node)) {
+        w->pictures = cmark.node_get_start_line(node);
+    } else if (type == CMARK_NODE_PARAGRAPH) {
         cmark_node *picture = picture_of(w, node);
-        open_block(w, picture ? READER_PICTURE : READER_PARAGRAPH, node);
+        walk_block_open(w, picture ? READER_PICTURE : READER_PARAGRAPH, node);
         if (picture) {
-            w->b.block.target = copy_of(w, cmark.node_get_url(picture));
+            w->b.block.target = walk_copy(w, cmark.node_get_url(picture));
             reader_beside_read(cmark.node_get_title(picture), &w->b.block.beside);
         }
-        w->b.block.include = copy_of(w, included_by(w, node));
+        w->b.block.include = walk_copy(w, included_by(w, node));
     } else if (type == CMARK_NODE_HEADING) {
-        open_block(w, READER_HEADING, node);
+        walk_block_open(w, READER_HEADING, node);
         w->b.block.level = cmark.node_get_heading_level(node);
     } else if (type == CMARK_NODE_CODE_BLOCK) {
         code_read(w, node);
     } else if (type == CMARK_NODE_HTML_BLOCK) {
-        html_read(w, node);
+        html_block(w, node);
     } else if (type == CMARK_NODE_THEMATIC_BREAK) {
-        open_block(w, READER_RULE, node);
+        walk_block_open(w, READER_RULE, node);
         reader_block_close(&w->b);
     } else if (type == CMARK_NODE_LIST) {
         list_begin(w, node);
@@ -430,6 +294,8 @@ static void block_enter(struct walk *w, cmark_node *node)
 static void block_leave(struct walk *w, cmark_node *node)
 {
     cmark_node_type type = cmark.node_get_type(node);
+    if (holds_blocks(node))
+        html_container_end(w);
     if (type == CMARK_NODE_LIST) {
         w->lists_count -= w->lists_count > 0;
         w->b.items--;
@@ -455,14 +321,17 @@ static void tree_walk(struct walk *w, cmark_node *root)
     cmark_event_type event;
     while (w->b.status == READER_OK && (event = cmark.iter_next(iter)) != CMARK_EVENT_DONE) {
         cmark_node *node = cmark.iter_get_node(iter);
-        if (is_inline(node) && !is_type(node, "table_cell"))
+        if (w->told) { /* nothing of what is in it */
+            if (node == w->told)
+                w->told = NULL;
+        } else if (is_inline(node) && !is_type(node, "table_cell"))
             (event == CMARK_EVENT_ENTER ? inline_enter : inline_leave)(w, node);
-        else if (event == CMARK_EVENT_ENTER)
-            block_enter(w, node);
         else
-            block_leave(w, node);
+            (event == CMARK_EVENT_ENTER ? block_enter : block_leave)(w, node);
     }
     cmark.iter_free(iter);
+    html_close_to(w, 0);
+    html_looks_end(w);
     reader_block_close(&w->b);
     reader_labels_end(&w->b);
 }

@@ -87,6 +87,25 @@ static void quote_part(const struct reader_pages *p, const struct reader_block *
         manner->after_px = gap;
 }
 
+/* What is parted stands as one: only its first line is moved in, and its last one ends it. */
+static enum reader_status piece_add(struct reader_pages *p, void *user,
+                                    struct paragraph_text *piece,
+                                    const struct pages_piece_place *place)
+{
+    const struct page_manner *all = user;
+    const double gap = 0.35 * p->setup.size_px;
+    struct page_manner manner = *all;
+    if (!place->first) {
+        manner.indent_px = 0;
+        manner.before_px = place->picture ? gap : 0;
+    }
+    if (!place->last)
+        manner.after_px = place->picture ? gap : 0;
+    if (place->picture && manner.align == FONT_ALIGN_JUSTIFY)
+        manner.align = FONT_ALIGN_START;
+    return pages_paragraph_add(p, piece, CONTEXT_TEXT, &manner, false);
+}
+
 static enum reader_status text_add(struct reader_pages *p, const struct reader_block *block)
 {
     struct paragraph_text t = {0};
@@ -99,11 +118,16 @@ static enum reader_status text_add(struct reader_pages *p, const struct reader_b
     else if (!p->behind_head && !block->continues)
         manner.indent_px = 1.2 * em;
     quote_part(p, block, &manner);
+    pages_align(block, &manner);
+    if (block->align != READER_ALIGN_USUAL)
+        manner.after_px = fmax(manner.after_px, 0.4 * em);
     enum reader_status status = marker_add(p, block, &t, &manner);
     if (status == READER_OK && !pages_block_add(&t, block, 0, block->bytes, 0))
         status = pages_no_memory();
     if (status == READER_OK)
-        status = pages_paragraph_add(p, &t, CONTEXT_TEXT, &manner, false);
+        status = pages_pieces(p, &t, CONTEXT_TEXT,
+                              pages_column(p) - manner.left_px - manner.right_px, piece_add,
+                              &manner);
     pages_text_finish(&t);
     return status;
 }
@@ -122,6 +146,7 @@ static enum reader_status heading_add(struct reader_pages *p, const struct reade
     manner.keep_with_next = manner.keep_together = manner.balance = true;
     manner.role = FONT_ROLE_HEADING;
     manner.level = block->level;
+    pages_align(block, &manner);
     enum reader_status status = marker_add(p, block, &t, &manner);
     if (status == READER_OK && !pages_block_add(&t, block, 0, block->bytes, 0))
         status = pages_no_memory();
@@ -194,6 +219,7 @@ static enum reader_status picture_add(struct reader_pages *p, const struct reade
     bool shown = false;
     pages_nest(p, block, &manner);
     manner.align = FONT_ALIGN_CENTER;
+    pages_align(block, &manner);
     manner.before_px = gap;
     manner.keep_with_next = block->bytes > 0;
     enum reader_status status = pages_picture_add(p, block, &manner, &shown);
@@ -257,9 +283,11 @@ int pages_wide_of(const struct reader_pages_setup *setup,
     switch (block->kind) {
     case READER_HEADING:
         return block->level <= 2 ? READER_WIDE_HEADINGS : -1;
-    case READER_PICTURE:
-        return pages_beside_host(setup, document, number, &width) < 0 ? READER_WIDE_FIGURES
-                                                                      : -1;
+    case READER_PICTURE: /* of a list or a quote: with it */
+        return block->items || block->quotes ||
+                       pages_beside_host(setup, document, number, &width) >= 0
+                   ? -1
+                   : READER_WIDE_FIGURES;
     case READER_LIVE:
         return READER_WIDE_DEMONSTRATIONS;
     case READER_ROW:

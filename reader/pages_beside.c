@@ -174,7 +174,8 @@ enum reader_status pages_beside_wait(struct reader_pages *p, const struct reader
         block >= d->blocks + d->blocks_count || p->waiting_count == PAGES_WAITING_MAX ||
         pages_beside_host(&p->setup, d, (int)(block - d->blocks), &width) < 0)
         return READER_OK;
-    enum reader_status status = pages_pictured(p, block, width, &picture);
+    enum reader_status status =
+        pages_pictured(p, block->source, block->target, block->asked, width, &picture);
     *waits = status == READER_OK && picture;
     if (*waits)
         p->waiting[p->waiting_count++] = block;
@@ -269,7 +270,8 @@ static enum reader_status figure_put(struct reader_pages *p, int id,
     double most;
     int style, figure;
     pages_beside_host(&p->setup, p->document, (int)(block - p->document->blocks), &most);
-    enum reader_status status = pages_pictured(p, block, most, &picture);
+    enum reader_status status =
+        pages_pictured(p, block->source, block->target, block->asked, most, &picture);
     if (status == READER_OK)
         status = pages_style(p, CONTEXT_TABLE, 0, &style);
     if (status != READER_OK || !picture)

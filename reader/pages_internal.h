@@ -43,14 +43,15 @@ struct pictured {
     int source, style, width, height;
     char *target;
     double most_px, high_px; /* that it had room in */
+    struct reader_asked asked;
     uint8_t *pixels, *alpha; /* alpha: NULL: all of it is opaque */
 };
 
 enum {
     PAGES_WAITING_MAX = 8,
-    LOOKS = 32,
+    LOOKS = 128,
     FACES = 8
-}; /* slanted, heavy, code, link, struck; the first three choose the face */
+}; /* slanted, heavy, code, link, struck, raised, lowered; the first three choose the face */
 /* Code is set smaller by so many steps at most, of so much of its size. */
 enum { PAGES_CODE_STEPS = 8, PAGES_CODE_PERCENT = 5 };
 
@@ -100,8 +101,12 @@ struct reader_pages {
 struct line_span {
     int begin, end, note;
     unsigned look;
-    long
-        at; /* byte of the document's plain text; -1: nothing of its own, as an item's number */
+    /* byte of the document's plain text; -1: nothing of its own, as an item's number */
+    long at;
+    /* of a picture: its file, until its style is made, and whose */
+    const char *image;
+    struct reader_asked asked;
+    int source;
 };
 struct paragraph_text {
     char *text;
@@ -116,6 +121,13 @@ enum reader_status pages_no_memory(void);
 enum reader_status pages_fonts_open(struct reader_pages *p);
 void pages_fonts_close(struct reader_pages *p);
 double pages_size(const struct reader_pages *p, enum context context);
+/* The same of letters that look so. */
+double pages_size_of(const struct reader_pages *p, enum context context, unsigned look);
+/* Which of the faces they are of, and that it is open. */
+unsigned pages_face_of(unsigned look);
+enum reader_status pages_face(struct reader_pages *p, int face);
+/* How high an x is, of the em; half an em where there is none. */
+double pages_x_height(struct font_face *face);
 double pages_code_scale(int steps); /* how large code is then, of its usual size */
 /* Letters behind those that are there. spans: of the block that they are bytes begin..end of;
  * NULL: all look so. */
@@ -123,9 +135,13 @@ bool pages_text_add(struct paragraph_text *t, const char *text, int bytes, unsig
 bool pages_block_add(struct paragraph_text *t, const struct reader_block *block, int begin,
                      int end, unsigned look);
 void pages_text_finish(struct paragraph_text *t);
-/* How wide its letters are in a context. Errors: FAILED. */
+/* pages_letters.c: how wide its letters are in a context. Errors: FAILED. */
 enum reader_status pages_width(struct reader_pages *p, const struct paragraph_text *t,
                                enum context context, double *width);
+/* The picture that a span is, where so much is free; *out NULL: its caption is shown. */
+enum reader_status pages_image(struct reader_pages *p, const struct line_span *s,
+                               enum context context, double most_px,
+                               const struct pictured **out);
 /* Its letters' styles, and its notes' signs; the notes themselves are the caller's. display:
  * formulas are as on lines of their own, no wider than most_px. */
 enum reader_status pages_styles_apply(struct reader_pages *p, int id,
@@ -135,12 +151,15 @@ enum reader_status pages_styles_apply(struct reader_pages *p, int id,
 enum reader_status pages_style(struct reader_pages *p, enum context context, unsigned look,
                                int *style);
 struct page_manner pages_manner(const struct reader_pages *p, enum context context);
+/* Its lines stand as the document says, if it does. */
+void pages_align(const struct reader_block *block, struct page_manner *manner);
 /* Lists and quotes are moved in. */
 void pages_nest(const struct reader_pages *p, const struct reader_block *block,
                 struct page_manner *manner);
 double pages_column(const struct reader_pages *p); /* how wide a column is */
 double pages_notes(const struct reader_pages *p);  /* and its margin for notes; 0: none */
-/* A paragraph of the text as it is. Where passages are made, keep it by pages_made_keep(). */
+/* pages_paragraph.c: a paragraph of the text as it is. Where passages are made, keep it by
+ * pages_made_keep(). */
 enum reader_status pages_paragraph_put(struct reader_pages *p, const char *text, size_t bytes,
                                        int style, const struct page_manner *manner, int *id);
 /* Keeps which bytes of the document a paragraph's letters are, where passages are made; takes
@@ -172,7 +191,8 @@ int pages_wide_of(const struct reader_pages_setup *setup,
 /* Its paragraphs. p->behind_head is for the next one. */
 enum reader_status pages_passage_add(struct reader_pages *p, int first, int count);
 
-/* The notes that the letters call, at a byte of the paragraph; -1: each behind its letters. */
+/* pages_notes.c. The notes that the letters call, at a byte of the paragraph; -1: each
+ * behind its letters. */
 enum reader_status pages_notes_add(struct reader_pages *p, int id,
                                    const struct paragraph_text *t, int byte);
 
@@ -197,12 +217,13 @@ enum reader_status pages_beside_wait(struct reader_pages *p, const struct reader
 /* Those that wait stand beside the paragraph, and its block's obstacles, if it is its first. */
 enum reader_status pages_besides_put(struct reader_pages *p, int id);
 
-/* pages_picture.c: a picture at the size that it has where so much is free; *out NULL: it is
- * not found. Owns: the pages. */
-enum reader_status pages_pictured(struct reader_pages *p, const struct reader_block *block,
-                                  double most_px, const struct pictured **out);
+/* pages_picture.c: a picture of that source at the size that it has where so much is free;
+ * *out NULL: it is not found. Owns: the pages. */
+enum reader_status pages_pictured(struct reader_pages *p, int source, const char *target,
+                                  struct reader_asked asked, double most_px,
+                                  const struct pictured **out);
 void pages_pictures_free(struct reader_pages *p);
-/* What a figure's caption says. shown: its picture is. False: no memory. */
+/* pages_figure.c: what a figure's caption says. shown: its picture is. False: no memory. */
 bool pages_caption(struct paragraph_text *t, const struct reader_block *block, bool shown);
 /* A picture that is found, as a box in a line of its own. *done: it was. */
 enum reader_status pages_picture_add(struct reader_pages *p, const struct reader_block *block,
@@ -211,6 +232,18 @@ enum reader_status pages_picture_add(struct reader_pages *p, const struct reader
 /* pages_code.c: lines of code, no wider than their column where they need not be much smaller
  * for that. */
 enum reader_status pages_code_add(struct reader_pages *p, const struct reader_block *block);
+
+/* pages_pieces.c: a text as paragraphs, parted where pictures in it are high. put: may take
+ * the piece's spans. */
+struct pages_piece_place {
+    bool first, last, picture; /* picture: it is one */
+};
+typedef enum reader_status (*pages_piece_put)(struct reader_pages *p, void *user,
+                                              struct paragraph_text *piece,
+                                              const struct pages_piece_place *place);
+enum reader_status pages_pieces(struct reader_pages *p, const struct paragraph_text *t,
+                                enum context context, double most_px, pages_piece_put put,
+                                void *user);
 
 /* pages_stage.c: room for the picture of a script that lives, and for the strip under it. */
 enum reader_status pages_stage_add(struct reader_pages *p, const struct reader_block *block,

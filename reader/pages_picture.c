@@ -116,11 +116,18 @@ static double picture_high(const struct reader_pages *p)
     return p->made ? p->setup.height_px : p->setup.height_px - 2 * p->setup.margin_px;
 }
 
-static void picture_size(const struct reader_picture *picture, double most_px, double high_px,
+static void picture_size(const struct reader_picture *picture, const struct pictured *own,
                          int *width, int *height)
 {
-    const double scale =
-        fmin(1, fmin(most_px / picture->width_px, 0.6 * fmax(1, high_px) / picture->height_px));
+    const struct reader_asked *asked = &own->asked;
+    double most = own->most_px, high = 0.6 * fmax(1, own->high_px);
+    if (asked->percent)
+        most *= asked->percent / 100.0;
+    if (asked->width_px)
+        most = fmin(most, asked->width_px);
+    if (asked->height_px)
+        high = fmin(high, asked->height_px);
+    const double scale = fmin(1, fmin(most / picture->width_px, high / picture->height_px));
     *width = (int)fmax(1, floor(picture->width_px * scale));
     *height = (int)fmax(1, floor(picture->height_px * scale));
 }
@@ -150,7 +157,7 @@ static enum reader_status pictured_make(struct reader_pages *p, const struct blo
                                         const struct reader_picture *picture,
                                         struct pictured *own)
 {
-    picture_size(picture, own->most_px, own->high_px, &own->width, &own->height);
+    picture_size(picture, own, &own->width, &own->height);
     own->pixels = pixels_shrink(picture, own->width, own->height);
     own->alpha = alpha_shrink(picture, own->width, own->height);
     return own->pixels
@@ -174,30 +181,35 @@ void pages_pictures_free(struct reader_pages *p)
 
 /* One that was set in so much room before. */
 static const struct pictured *pictured_known(const struct reader_pages *p, int source,
-                                             const char *target, double most_px, double high_px)
+                                             const char *target, struct reader_asked asked,
+                                             double most_px, double high_px)
 {
     for (int i = 0; i < p->pictures_count; i++) {
         const struct pictured *own = &p->pictures[i];
         if (own->source == source && own->most_px == most_px && own->high_px == high_px &&
-            strcmp(own->target, target) == 0)
+            reader_asked_same(&own->asked, &asked) && strcmp(own->target, target) == 0)
             return own;
     }
     return NULL;
 }
 
-enum reader_status pages_pictured(struct reader_pages *p, const struct reader_block *block,
-                                  double most_px, const struct pictured **out)
+enum reader_status pages_pictured(struct reader_pages *p, int source, const char *target,
+                                  struct reader_asked asked, double most_px,
+                                  const struct pictured **out)
 {
     struct reader_picture picture = {0};
-    const char *target = block->target ? block->target : "";
     const double high = picture_high(p);
     struct block full;
-    *out = pictured_known(p, block->source, target, most_px, high);
-    if (*out || !p->setup.picture || !*target || !block_find(p->faces[READER_CODE], &full) ||
-        !p->setup.picture(p->setup.picture_user, block->source, target, &picture))
+    *out = target ? pictured_known(p, source, target, asked, most_px, high) : NULL;
+    if (*out || !p->setup.picture || !target || !*target ||
+        !block_find(p->faces[READER_CODE], &full) ||
+        !p->setup.picture(p->setup.picture_user, source, target, &picture))
         return READER_OK;
-    struct pictured own = {
-        .source = block->source, .target = strdup(target), .most_px = most_px, .high_px = high};
+    struct pictured own = {.source = source,
+                           .target = strdup(target),
+                           .most_px = most_px,
+                           .high_px = high,
+                           .asked = asked};
     enum reader_status status =
         own.target && array_reserve(&p->pictures, &p->pictures_capacity, p->pictures_count + 1,
                                     sizeof *p->pictures)
@@ -212,35 +224,4 @@ enum reader_status pages_pictured(struct reader_pages *p, const struct reader_bl
     p->pictures[p->pictures_count++] = own;
     *out = &p->pictures[p->pictures_count - 1];
     return READER_OK;
-}
-
-bool pages_caption(struct paragraph_text *t, const struct reader_block *block, bool shown)
-{
-    enum { TARGET_BYTES = 1000 };
-    const char *target = block->target ? block->target : "";
-    const bool whole = strlen(target) <= TARGET_BYTES;
-    int told = whole ? (int)strlen(target) : TARGET_BYTES;
-    while (!whole && told && ((unsigned char)target[told] & 0xc0) == 0x80)
-        told--;
-    return pages_block_add(t, block, 0, block->bytes, READER_SLANTED) &&
-           (shown ||
-            (pages_text_add(t, " [", 2, 0) && pages_text_add(t, target, told, READER_CODE) &&
-             pages_text_add(t, whole ? "]" : "\xe2\x80\xa6]", whole ? 1 : 4, 0)));
-}
-
-enum reader_status pages_picture_add(struct reader_pages *p, const struct reader_block *block,
-                                     const struct page_manner *manner, bool *done)
-{
-    const struct pictured *own;
-    int plain;
-    *done = false;
-    enum reader_status status =
-        pages_pictured(p, block, pages_column(p) - manner->left_px - manner->right_px, &own);
-    if (status != READER_OK || !own)
-        return status;
-    status = pages_style(p, CONTEXT_TABLE, 0, &plain);
-    if (status == READER_OK)
-        status = pages_inset_put(p, own->target, plain, own->style, manner);
-    *done = status == READER_OK;
-    return status;
 }

@@ -16,6 +16,8 @@
  *     ```lua live, ```c paris     fences that live: a script on a stage, and a program, which
  *                                 for now is shown
  *     ![Reeds](a.png "left 40%")  a picture that text flows around (struct reader_beside)
+ *     <p align="center">, <img>   tags of HTML that mean what can be shown (tag.h); others are
+ *                                 shown as they are written
  *     <a id="marsh"></a>          a label of what follows, or of the block that it is in
  *     [Reeds](reeds.md "include") alone in a paragraph: another file (reader_files.h)
  *     <a id="bibliography"></a>   that label: what follows is a bibliography
@@ -79,15 +81,29 @@ enum reader_look {
     READER_CODE = 4,
     READER_LINK = 8,
     READER_STRUCK = 16,
-    READER_NOTE = 32,   /* a note's number; target: which note, as a number */
-    READER_FORMULA = 64 /* its letters are a formula with the signs around it */
+    READER_NOTE = 32,    /* a note's number; target: which note, as a number */
+    READER_FORMULA = 64, /* its letters are a formula with the signs around it */
+    READER_RAISED = 128,
+    READER_LOWERED = 256,
+    READER_IMAGE = 512 /* its letters are a picture's caption; target: its file */
 };
+
+/* How large a picture is meant to be: it is never larger than it is. */
+struct reader_asked {
+    short width_px, percent, height_px; /* percent: of the column; 0: nothing is asked */
+};
+static inline bool reader_asked_same(const struct reader_asked *a, const struct reader_asked *b)
+{
+    return a->width_px == b->width_px && a->percent == b->percent &&
+           a->height_px == b->height_px;
+}
 
 struct reader_span {
     int begin, end; /* bytes of the block's text; in order, without gaps */
     unsigned look;
-    int note;     /* with NOTE: of the document's notes; else -1 */
-    char *target; /* with LINK: where it leads to; else NULL */
+    int note;                  /* with NOTE: of the document's notes; else -1 */
+    char *target;              /* with LINK: where it leads to; else NULL */
+    struct reader_asked asked; /* with IMAGE */
 };
 
 enum reader_kind {
@@ -122,8 +138,17 @@ struct reader_beside {
 bool reader_beside_read(const char *words, struct reader_beside *out);
 bool reader_beside_same(const struct reader_beside *a, const struct reader_beside *b);
 
+/* Where lines stand in their column, where the document says so. */
+enum reader_align {
+    READER_ALIGN_USUAL,
+    READER_ALIGN_LEFT,
+    READER_ALIGN_CENTER,
+    READER_ALIGN_RIGHT
+};
+
 struct reader_block {
     enum reader_kind kind;
+    enum reader_align align;
     int level;         /* of a heading, from 1 */
     int items, quotes; /* how many lists and quotes it is in */
     char *marker;      /* "1." or a bullet, of an item's first block; else NULL */
@@ -140,6 +165,7 @@ struct reader_block {
     int stage_width, stage_height; /* of a fence that lives, its picture's; else 0 */
     bool stage_program;            /* of such a fence: a program in C/Paris, not a script */
     struct reader_beside beside;   /* of a picture */
+    struct reader_asked asked;     /* the same */
     int table;                     /* of a row: which table, from 0 */
     bool head;                     /* of a row: the table's first */
     int columns;

@@ -47,7 +47,7 @@ static int sign_find(const char *text, int bytes)
 
 static int reference_sign(const struct reader_block *block, const struct reader_span *span)
 {
-    const unsigned others = READER_CODE | READER_NOTE | READER_FORMULA;
+    const unsigned others = READER_CODE | READER_NOTE | READER_FORMULA | READER_IMAGE;
     if (!(span->look & READER_LINK) || (span->look & others) || !span->target ||
         span->target[0] != '#' || !span->target[1])
         return -1;
@@ -82,6 +82,7 @@ static void text_put(struct refer *r, const char *text, int bytes,
                                                         .end = to->bytes + bytes,
                                                         .look = like->look,
                                                         .note = like->note,
+                                                        .asked = like->asked,
                                                         .target = target};
     memcpy(to->text + to->bytes, text, (size_t)bytes);
     to->bytes += bytes;

@@ -46,6 +46,9 @@ static void blocks_same(const struct reader_block *a, const struct reader_block 
 {
     for (int i = 0; i < count; i++) {
         assert_int_equal(a[i].kind, b[i].kind);
+        assert_int_equal(a[i].align, b[i].align);
+        assert_true(reader_asked_same(&a[i].asked, &b[i].asked));
+        assert_true(reader_beside_same(&a[i].beside, &b[i].beside));
         assert_string_equal(a[i].text, b[i].text);
         assert_int_equal(a[i].bytes, b[i].bytes);
         assert_int_equal(a[i].at, b[i].at);
@@ -72,6 +75,7 @@ static void blocks_same(const struct reader_block *a, const struct reader_block 
             assert_int_equal(s->end, t->end);
             assert_int_equal(s->look, t->look);
             assert_int_equal(s->note, t->note);
+            assert_true(reader_asked_same(&s->asked, &t->asked));
             assert_string_equal(s->target ? s->target : "", t->target ? t->target : "");
         }
     }

@@ -102,6 +102,18 @@ static const struct {
     {"A [*word* b]\n\n[*word* b]: c.md\n", "wor|d", "x", 0,
      "A [*worxd* b][*word* b]\n\n[*word* b]: c.md\n"},
     {"A word\n", "A|", "<br>", 0, "A<br\\> word\n"},
+    {"H<sub>2</sub>O is <kbd>wet</kbd> b\n", "we|t", "x", 0,
+     "H<sub>2</sub>O is <kbd>wext</kbd> b\n"},
+    {"A <img src=\"b.png\" alt=\"cd\"> word\n", "wo|rd", "x", 0,
+     "A <img src=\"b.png\" alt=\"cd\"> woxrd\n"},
+    {"A ![](b/c.png) word ![d](e.png) f\n", "|f", "x", 0,
+     "A ![](b/c.png) word ![d](e.png) xf\n"},
+    {"<p align=\"center\">\n  One <b>two</b>\n</p>\n", "tw|o", "x", 0,
+     "<p align=\"center\">\n  One <b>twxo</b>\n</p>\n"},
+    {"<h1 align=center>A &amp; b</h1>\n\nc\n", "|b", "x", 0,
+     "<h1 align=center>A &amp; xb</h1>\n\nc\n"},
+    {"<div align=center>\n\none two\n\n</div>\n\nb\n", "one| two", "\n", 0,
+     "<div align=center>\n\none\n\ntwo\n\n</div>\n\nb\n"},
 };
 
 static void typed_letters_are_written(void **state)
@@ -150,6 +162,9 @@ static const struct {
     {"A <b>bold</b> word<br>\nand <https://a.b>\n", "wo|rd", true},
     {"<a id=\"b\"></a>A label, and [see](#b).\n\n# C\n", "lab|el", true},
     {"A <!-- no --> word\n", "wo|rd", false},
+    {"A <img src=\"b.png\" width=20> word\n", "wo|rd", true},
+    {"<div align=center>\n\nA word\n\n</div>\n", "wo|rd", false}, /* where it stands */
+    {"<p align=center>A word</p>\n\nB\n", "wo|rd", false},
     {"# Head\n\n## B\n\nSee [#](#b).\n", "Hea|d", false},
     {"# Head\n\nSee [#](#head).\n", "Se|e", false},
     {"- <a id=\"bibliography\"></a>b\n- a\n", "a|", false},

@@ -55,6 +55,19 @@ static char *field_read(const char **at, const char *name)
     return out;
 }
 
+/* Behind the tag that a text begins with: what is in quotes does not end it. */
+static const char *tag_behind(const char *html)
+{
+    char quote = '\0';
+    for (const char *at = html; *at && html[1] != '?' && html[1] != '!'; at++) {
+        if (quote ? *at == quote : *at == '"' || *at == '\'')
+            quote = quote ? '\0' : *at;
+        else if (!quote && *at == '>')
+            return at + 1;
+    }
+    return strchr(html, '>') + 1;
+}
+
 /* Letters and signs of HTML, without tags and blanks. The caller frees it. */
 static char *said(const char *html)
 {
@@ -66,10 +79,13 @@ static char *said(const char *html)
     while (*html) {
         const char *const before = html;
         if (*html == '<' && strchr(html, '>')) {
-            const char *const alt =
-                strncmp(html, "<img ", 5) == 0 ? strstr(html, "alt=\"") : NULL;
-            html = strchr(html, '>') + 1;
-            for (const char *at = alt ? alt + 5 : html; at < html && *at != '"'; at++)
+            const char *const begin = html;
+            html = tag_behind(html);
+            const char *alt = strncmp(begin, "<img ", 5) == 0 ? strstr(begin, "alt=\"") : NULL;
+            if (strncmp(begin, "<img ", 5) == 0 && (!alt || alt > html))
+                alt = strstr(begin, "src=\""); /* what has no caption is told by its file */
+            for (const char *at = alt && alt < html ? alt + 5 : html; at < html && *at != '"';
+                 at++)
                 to += *at != ' ' ? (*to = *at, 1) : 0;
             continue;
         }

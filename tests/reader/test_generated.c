@@ -95,7 +95,10 @@ static void inline_make(struct made *m)
         fprintf(m->out, "<https://a.b/%s>", word(m));
         return;
     case 7:
-        fprintf(m->out, "![%s](pictures/none.png)", word(m));
+        fprintf(m->out,
+                chance(m, 2) ? "![%s](pictures/none.png)"
+                             : "<img src='pictures/none.png' alt='%s'>",
+                word(m));
         return;
     case 8:
         fprintf(m->out, "$\\mathrm{%s}^2$", word(m));

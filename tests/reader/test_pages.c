@@ -94,7 +94,8 @@ static void all_kinds_of_blocks_are_said(void **state)
     struct made m =
         make("# One\n\nText *slanted* `code` $x^2$.\n\n- item\n\n> quote\n\n"
              "```\nfenced\n\tline\n```\n\n$$y_1$$\n\n***\n\n![caption](file.png)\n\n"
-             "<p>html</p>\n\n| a | b |\n|---|--:|\n| c | d |\n\n- [x] done\n",
+             "<video>html</video>\n\n<p align=right>told</p>\n\n| a | b |\n|---|--:|\n| c | d "
+             "|\n\n- [x] done\n",
              &setup);
     static const char *const parts[] = {"One\n",
                                         "Text slanted code $x^2$.\n",
@@ -104,7 +105,8 @@ static void all_kinds_of_blocks_are_said(void **state)
                                         "y_1",
                                         "* * *",
                                         "caption [file.png]",
-                                        "<p>html</p>",
+                                        "<video>html</video>",
+                                        "\ntold\n",
                                         "a\tb\n",
                                         "c\td\n",
                                         "done"};
@@ -330,6 +332,66 @@ static void pictures_are_shown(void **state)
     made_finish(&m);
 }
 
+/* The picture that a text's letters are. */
+static const struct font_ink *picture_of(const struct seen *s, const char *text)
+{
+    const struct font_placed *glyph = glyph_of(s, text);
+    assert_true(glyph->ink > 0);
+    assert_int_equal(s->layout.inks[glyph->ink - 1].kind, FONT_INK_PICTURE);
+    return &s->layout.inks[glyph->ink - 1];
+}
+
+/* In lists and quotes they stand within what these are moved in by; in lines and notes, too; as
+ * large as a tag asks. */
+static void pictures_stand_where_they_are_said(void **state)
+{
+    (void)state;
+    struct reader_pages_setup setup = plain_setup();
+    int asked = 0;
+    setup.picture = stripes;
+    setup.picture_user = &asked;
+    setup.height_px = 1600;
+    const double left = setup.margin_px, em = setup.size_px,
+                 width = setup.width_px - 2 * setup.margin_px;
+    struct made m = make("- a\n  - b\n\n    ![c](there.png)\n\n> ![d](there.png)\n\n"
+                         "<p align=right><img src=there.png width=60 alt=e></p>\n\n"
+                         "Small <img src=there.png height=10 alt=f> behind. Tall "
+                         "![g](there.png) after[^1].\n\n[^1]: h\n\n    ![i](there.png)\n",
+                         &setup);
+    struct seen s = look(&m, 0);
+    const struct font_ink *list = NULL, *quote = NULL, *own = NULL;
+    int pictures = 0;
+    for (int i = 0; i < s.layout.glyphs_count; i++) {
+        const struct font_placed *g = &s.layout.glyphs[i];
+        const struct font_ink *ink = g->ink > 0 ? &s.layout.inks[g->ink - 1] : NULL;
+        if (!ink || ink->kind != FONT_INK_PICTURE)
+            continue;
+        list = pictures == 0 ? ink : list;
+        quote = pictures == 1 ? ink : quote;
+        own = pictures == 2 ? ink : own;
+        pictures++;
+    }
+    assert_int_equal(pictures, 6);
+    assert_true(fabs(list->x0 - left - 3 * em) <= 1 && list->width_px <= width - 3 * em + 1);
+    assert_true(list->width_px > width - 3 * em - 2);
+    assert_true(fabs(quote->x0 - left - 1.5 * em) <= 1);
+    assert_true(fabs(quote->x0 + quote->width_px - left - width + 1.5 * em) <= 2);
+    assert_int_equal(own->width_px, 60);
+    assert_true(fabs(own->x0 + 60 - left - width) <= 1);
+    const struct font_ink *small = picture_of(&s, "f behind"),
+                          *tall = picture_of(&s, "g\nafter");
+    assert_int_equal(small->height_px, 10);
+    assert_true(fabs(small->y0 + 10 - glyph_of(&s, "Small")->y_px) < 1);
+    assert_int_equal(tall->width_px, (int)width);
+    assert_true(tall->y0 > glyph_of(&s, "Tall")->y_px);
+    assert_true(tall->y0 + tall->height_px < glyph_of(&s, "after")->y_px);
+    const struct font_ink *note = picture_of(&s, "-\ni"); /* its caption below */
+    assert_true(note->y0 > glyph_of(&s, "h\n")->y_px && note->height_px <= 10 * em);
+    assert_true(note->y0 + note->height_px < glyph_of(&s, "i\n")->y_px);
+    seen_finish(&s);
+    made_finish(&m);
+}
+
 /* Figures and formulas with labels stand with their numbers, and references say them. */
 static void numbers_are_said(void **state)
 {
@@ -424,6 +486,7 @@ int main(void)
         cmocka_unit_test(wide_code_is_made_smaller),
         cmocka_unit_test(wide_formulas_are_made_smaller),
         cmocka_unit_test(pictures_are_shown),
+        cmocka_unit_test(pictures_stand_where_they_are_said),
         cmocka_unit_test(numbers_are_said),
         cmocka_unit_test(hostile_documents_are_set),
         cmocka_unit_test(wrong_setups_are_refused),
