@@ -16,6 +16,7 @@
 #include "run/replay.h"
 #include "sequencers/sequencers.h"
 #include "values/graph.h"
+#include "with_ranks.h"
 
 struct machine_config machine_config_default(void)
 {
@@ -113,6 +114,8 @@ static void sequencers_destroy(struct machine *m)
     if (!q)
         return;
     m->sequencers = NULL;
+    if (q->far)
+        ranks_machines_destroy(m);
     for (int i = 0; i < q->machines_count; i++) {
         struct machine *s = q->machines[i];
         background_finish(s);
@@ -161,6 +164,9 @@ static enum machine_status sequencers_create(struct machine *m)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for blocks");
     m->sequencers = q;
     q->count = (int)m->settings.blocks;
+    q->far = ranks_are_of(m);
+    if (q->far && ranks_machines_make(m))
+        return m->status;
     const bool apart = device_subs_count(m->device) == q->count;
     const int wanted = apart ? q->count : 1;
     while (q->machines_count < wanted &&
@@ -194,6 +200,7 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     m->device = &layers->device;
     layers_join(layers);
     enum machine_status status = settings_read(m);
+    status = status ? status : ranks_settings(m, config);
     if (status)
         return status;
     m->settings.eager = config->eager < 0 ? m->settings.eager : config->eager != 0;
@@ -227,6 +234,7 @@ void machine_destroy(struct machine *m)
         return;
     forks_machine_gone(m);
     content_finish(m);
+    ranks_are_free(m);
     watch_close(m);
     device_close(m);
     free(m->plans->dump_dir);

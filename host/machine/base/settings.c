@@ -3,6 +3,7 @@
  * Each variable is a row of machine_settings.tab; docs/engine-reference.md explains them.
  */
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -84,6 +85,19 @@ enum machine_status settings_read(struct machine *m)
         memcpy((char *)&m->settings + s->at, &value, sizeof value);
     }
     return MACHINE_OK;
+}
+
+void settings_text(char *out, size_t size)
+{
+    size_t used = 0;
+    *out = 0;
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        const char *text = getenv(table[i].variable);
+        const size_t more = text ? strlen(table[i].variable) + strlen(text) + 2 : 0;
+        if (text && *text && used + more < size)
+            used +=
+                (size_t)snprintf(out + used, size - used, "%s=%s\n", table[i].variable, text);
+    }
 }
 
 /* The knobs are the last rows, in the order of the enum. */

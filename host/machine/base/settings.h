@@ -45,6 +45,8 @@ struct settings {
 };
 
 enum machine_status settings_read(struct machine *m);
+/* The variables that are set, a line each: NAME=VALUE. What does not fit is left out. */
+void settings_text(char *out, size_t size);
 bool settings_number(const char *text, uint64_t *out); /* false: the text is no number */
 
 const char *settings_knob_may_be(enum machine_knob knob);

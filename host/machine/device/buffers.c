@@ -13,6 +13,7 @@
 #include "base/errors.h"
 #include "base/parts.h"
 #include "device/chunks.h"
+#include "device/far.h"
 
 static void buffer_free(struct device_buffer *b)
 {
@@ -259,6 +260,10 @@ static bool ends_with_blocks(struct machine *m, struct device_buffer *b)
 
 void device_buffer_end(struct machine *m, struct device_buffer *b)
 {
+    if (b->rank) {
+        device_far_end(b);
+        return;
+    }
     if (b->blocks && ends_with_blocks(m, b))
         return;
     struct device *d = b->home;

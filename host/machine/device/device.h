@@ -36,7 +36,7 @@ struct device_memory {
 struct array_blocks;
 
 struct device_buffer {
-    struct device_memory *memory; /* NULL: it is in blocks only */
+    struct device_memory *memory; /* NULL: it is in blocks only, or in another rank */
     size_t bytes, first;          /* see struct rows */
     void *host; /* where it is for the front end; NULL: the device has memory of its own */
     struct device *home; /* whose pool it goes back to; NULL: it is in blocks only */
@@ -47,6 +47,8 @@ struct device_buffer {
     bool follows;
     uint32_t mark, number;       /* of the last walk that came by: run/states.c */
     struct array_blocks *blocks; /* NULL: it is in one piece */
+    int rank;                    /* who has it in memory; 0: this process. And what it is */
+    uint32_t far;                /* called there: far.h */
 };
 
 /* An array in blocks: sequencers/. */

@@ -13,6 +13,7 @@
 #include "devices.h"
 #include "input_file.h"
 #include "latency.h"
+#include "ranks/ranks.h"
 
 int machine_devices_list(void (*each)(void *context, int index, const char *platform,
                                       const char *device, const char *version,
@@ -137,6 +138,8 @@ static enum machine_status ask(struct machine *m)
         m->settings.memory != SETTING_FREE ? m->settings.memory
         : d->is_cpu ? memory_left(memory) /* the front end and others use the same memory */
                     : memory;
+    if (d->is_cpu && m->settings.memory == SETTING_FREE)
+        d->memory_bytes /= (uint64_t)ranks_on_node();
     d->memory_max_alloc_bytes = max_alloc;
     d->has_double = doubles != 0;
     if (!doubles)

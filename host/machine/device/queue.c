@@ -5,6 +5,7 @@
 
 #include "base/arrays.h"
 #include "device/device.h"
+#include "device/far.h"
 #include "watch/watch.h"
 
 enum { PARTS_FORCED = 7 };
@@ -118,6 +119,8 @@ static bool at_once(const struct machine *m, const struct device_buffer *b)
 enum machine_status device_fill(struct machine *m, const struct device_buffer *b,
                                 const void *pattern, size_t pattern_bytes, const char *what)
 {
+    if (b->rank)
+        return device_far_fill(m, b, pattern, pattern_bytes);
     if (at_once(m, b)) {
         move(m, b->host, pattern, b->bytes, pattern_bytes);
         return MACHINE_OK;
@@ -139,6 +142,8 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
 enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
                                 const struct device_buffer *to, size_t bytes, const char *what)
 {
+    if (from->rank)
+        return device_far_copy(m, from, to, bytes);
     if (near(m, from) && at_once(m, to)) {
         move(m, to->host, from->host, bytes, 0);
         return MACHINE_OK;
@@ -160,6 +165,8 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
 enum machine_status device_read(struct machine *m, const struct device_buffer *b, size_t at,
                                 void *to, size_t bytes, const char *what)
 {
+    if (b->rank)
+        return device_far_read(m, b, (struct far_rows){at, bytes, bytes, 1}, to, bytes);
     if (m->watch)
         watch_bytes(m, bytes);
     if (near(m, b)) {
@@ -181,6 +188,8 @@ enum machine_status device_read(struct machine *m, const struct device_buffer *b
 enum machine_status device_write(struct machine *m, const struct device_buffer *b, size_t at,
                                  const void *from, size_t bytes, const char *what)
 {
+    if (b->rank)
+        return device_far_write(m, b, (struct far_rows){at, bytes, bytes, 1}, from, bytes);
     if (m->watch)
         watch_bytes(m, bytes);
     if (near(m, b)) {

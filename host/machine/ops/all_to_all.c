@@ -153,7 +153,7 @@ enum machine_status all_to_all_arrange(struct machine *m, const struct message *
     *in_blocks = false;
     if (!sequencers_have(m, of, READ))
         return MACHINE_OK;
-    *in_blocks = is_near(m, g->from) && is_near(m, g->to);
+    *in_blocks = sequencers_are_near(m) && is_near(m, g->from) && is_near(m, g->to);
     for (int i = 0; i < READ; i++) {
         const int set = i < READ - 1 ? g->from_set : g->to_set;
         if (!of[i] || (*in_blocks && !sequencers_cut(m, set)))

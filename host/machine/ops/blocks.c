@@ -80,7 +80,8 @@ static struct machine_value *block_find(struct machine *m, uint32_t field,
 static bool is_near(const struct machine *m, const struct machine_value *v)
 {
     return m->settings.near && v->buffer &&
-           (sequencers_has(m, v) ? m->device->is_pocl : v->buffer->host != NULL);
+           (sequencers_has(m, v) ? m->device->is_pocl && sequencers_are_near(m)
+                                 : v->buffer->host != NULL);
 }
 
 /* A part of the block, in one array: whole rows of it, or (of a set with one axis) columns. */

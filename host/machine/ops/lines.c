@@ -235,7 +235,7 @@ struct device_buffer *lines_worked(struct machine *m, struct machine_type type,
     const int set = m->values->set_current;
     struct device_buffer *arrays[SEQUENCERS_ARRAYS];
     const bool in_blocks = sequencers_have(m, values, count);
-    if (in_blocks && !across)
+    if (in_blocks && !across && sequencers_are_near(m))
         return sequencers_each(m, set, type, values, count, work, of);
     if (in_blocks && sequencers_can_across(m, set))
         return sequencers_across(m, set, type, values, count, work, of);
@@ -265,7 +265,7 @@ bool lines_can_chain(struct machine *m, const struct line_scan *j, bool downward
 {
     const struct cut *c = sequencers_cut(m, m->values->set_current);
     return m->values->sets[m->values->set_current].rank == 1 && m->settings.near &&
-           m->device->is_pocl && c->ghosts > 0 &&
+           m->device->is_pocl && sequencers_are_near(m) && c->ghosts > 0 &&
            (j->element->kind != 1 || runs_are_whole(c, m->sequencers->count, downward));
 }
 

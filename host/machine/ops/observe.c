@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "base/scalar.h"
 #include "base/types.h"
+#include "device/far.h"
 #include "machine_rows.h"
 #include "memory/memory.h"
 #include "ops/gather.h"
@@ -88,7 +89,12 @@ static enum machine_status blocks_out(struct machine *m, int set, const struct a
     enum machine_status status = MACHINE_OK;
     for (int i = 0; i < a->count && !status; i++) {
         const struct band band = sequencers_band(m, set, i);
-        if (band.set.count)
+        const struct far_rows rows = {band.at * a->element, (size_t)band.set.width * a->element,
+                                      band.set.pitch * a->element, band.set.rows};
+        if (band.set.count && a->of[i]->rank)
+            status = device_rows_read(m, a->of[i], rows, out + band.index * a->element,
+                                      rows.bytes, what);
+        else if (band.set.count)
             status = rows_out(m, (struct rows_at){a->of[i], &band.set, band.at}, a->element,
                               out + band.index * a->element, what);
     }

@@ -179,7 +179,7 @@ static bool arrays_ready(struct machine *m, int set, struct machine_value *in,
     *in_blocks = false;
     if (!sequencers_have(m, values, 2))
         return true;
-    *in_blocks = runs_are_whole(m, set);
+    *in_blocks = sequencers_are_near(m) && runs_are_whole(m, set);
     for (int i = 0; i < 2; i++)
         if (values[i] &&
             (*in_blocks ? sequencers_divide(m, values[i]->buffer, set, values[i]->type, 0)

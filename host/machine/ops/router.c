@@ -503,7 +503,7 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
 static bool gets_from_blocks(struct machine *m, struct machine_value *address, int set)
 {
     uint32_t bits;
-    return m->sequencers && m->settings.near && m->device->is_pocl &&
+    return m->sequencers && sequencers_are_near(m) && m->settings.near && m->device->is_pocl &&
            (sequencers_cut(m, set) || sequencers_cut(m, m->values->set_current)) &&
            !gets_turned(m, address, set, &bits);
 }

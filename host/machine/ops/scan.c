@@ -352,7 +352,7 @@ static struct device_buffer *spread_all(struct machine *m, struct spread_work *w
     const struct element *e = w->scan.element;
     struct machine_value *in[2] = {value, context};
     const uint32_t axes = w->axes;
-    if (axes == 1 || !(axes & 1) || !sequencers_have(m, in, 2))
+    if (axes == 1 || !(axes & 1) || !sequencers_have(m, in, 2) || !sequencers_are_near(m))
         return lines_worked(m, type_of(e), in, 2, axes & 1, spread_work, w);
     w->axes = axes & ~UINT32_C(1);
     struct device_buffer *out = lines_worked(m, type_of(e), in, 2, false, spread_work, w);
@@ -434,6 +434,8 @@ static struct machine_value *spread_copy(struct machine *m, int axis, bool one, 
         return NULL;
     const struct vpset *s = &m->values->sets[set];
     struct fill_work w = {.element = f.element, .axis = axis, .one = one};
+    if (m->sequencers && !sequencers_are_near(m) && sequencers_whole(m, v->buffer))
+        return NULL;
     in[0] = v;
     if (sequencers_has(m, v) && (one || axis == 0)) {
         const struct owned owned = sequencers_owner(m, v->buffer, index);

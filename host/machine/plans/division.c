@@ -4,20 +4,12 @@
 #include <stdlib.h>
 
 #include "base/errors.h"
+#include "device/far.h"
 #include "plans/background.h"
-#include "plans/explained.h"
+#include "plans/far.h"
+#include "ranks/ranks.h"
 
 /* ---- plans ---- */
-
-/* A portion's nodes are not numbered as the program's are: its kernels are described without
- * the fields that they store to. */
-static struct plan *portion_plan(struct portion *g, enum plan_use use)
-{
-    explained_nodes(g->machine, NULL, NULL, 0, NULL);
-    const struct plan_request q = {.reach = &g->reach, .targets = &g->targets, .use = use};
-    g->plan = plan_get(g->machine, &q);
-    return g->plan;
-}
 
 /* What went wrong there has gone wrong here. */
 static enum machine_status failed_there(struct machine *m, struct machine *there)
@@ -36,6 +28,8 @@ static bool portions_plan(struct machine *m, struct plan *p, enum plan_use use)
     p->hopeless = use == PLAN_TO_REHEARSE_TURNS && mixed;
     if (p->hopeless)
         return true;
+    if (d->far && (!plan_use_runs(use) || use == PLAN_TO_RUN_OFTEN))
+        division_far_prepare(d, use);
     for (int i = 0; i < d->blocks_count; i++) {
         const struct plan *in_blocks = portion_plan(&d->blocks[i], use);
         if (!in_blocks) {
@@ -117,6 +111,7 @@ struct division_run {
     struct machine_value *const *nodes; /* its constants */
     int drafts;                         /* of a portion, at most */
     struct device_buffer **out;         /* by target */
+    struct device_buffer **far;         /* ... of a block in blocks */
     struct device_buffer **local; /* by draft, of each portion; the whole one's is the first */
     bool *kept;                   /* by draft */
     bool failed[BLOCKS_MOST];     /* by block */
@@ -260,6 +255,28 @@ static enum machine_status blocks_compute_in_turn(struct division_run *r)
     return MACHINE_OK;
 }
 
+/* Other ranks' blocks first, which take as long as this one, beside it. */
+static enum machine_status blocks_compute_far(const struct division_run *r)
+{
+    struct portion *g = &r->d->blocks[0];
+    struct machine *m = r->m;
+    for (int block = 1; block < m->sequencers->count; block++) {
+        drafts_set(r, g, block);
+        for (int i = 0; i < g->targets.count; i++) {
+            const struct machine_value *v = g->targets.values[i];
+            struct device_buffer *b = device_far_new(
+                m, block, geometry_rows(sequencers_set(m, v->set), v->type).bytes);
+            if (!b)
+                return m->status;
+            sequencers_array_gets(r->out[i], block, b);
+            r->far[i] = b;
+        }
+        division_far_run(r->d, block, local_of(r, g), r->far);
+    }
+    ranks_flush();
+    return block_compute(r, g, 0) ? MACHINE_OK : failed_there(m, g->machine);
+}
+
 static enum machine_status blocks_compute(struct division_run *r)
 {
     struct portion *g = &r->d->blocks[0];
@@ -273,7 +290,9 @@ static enum machine_status blocks_compute(struct division_run *r)
         r->out[i]->blocks->valid = ghosts_of(r, v->set) - r->d->reaches[i];
     }
     if (!status)
-        status = r->d->blocks_count > 1 ? blocks_compute_apart(r) : blocks_compute_in_turn(r);
+        status = r->d->far                ? blocks_compute_far(r)
+                 : r->d->blocks_count > 1 ? blocks_compute_apart(r)
+                                          : blocks_compute_in_turn(r);
     for (int i = 0; i < r->d->blocks_count; i++)
         drafts_reset(r->d, &r->d->blocks[i]);
     r->m->sequencers->run++;
@@ -342,9 +361,10 @@ enum machine_status division_run(struct machine *m, struct plan *p,
         .m = m, .d = d, .buffers = buffers, .nodes = nodes, .drafts = most};
     r.local = calloc((size_t)(most * d->blocks_count), sizeof(struct device_buffer *));
     r.out = calloc((size_t)p->stored_count, sizeof(struct device_buffer *));
+    r.far = calloc((size_t)p->stored_count, sizeof(struct device_buffer *));
     r.kept = calloc((size_t)most, sizeof *r.kept);
     enum machine_status status =
-        r.local && r.out && r.kept
+        r.local && r.out && r.far && r.kept
             ? MACHINE_OK
             : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to run a plan");
     status = status ? status : blocks_compute(&r);
@@ -353,6 +373,7 @@ enum machine_status division_run(struct machine *m, struct plan *p,
         results_give(&r, fates, status);
     free(r.local);
     free(r.out);
+    free(r.far);
     free(r.kept);
     p->runs++;
     return status;

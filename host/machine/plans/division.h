@@ -50,6 +50,7 @@ struct portion {
 };
 
 struct division {
+    uint32_t far; /* what ranks call the portion in blocks; 0: there are none */
     /* without targets: there is nothing of that kind. Of blocks there is one for each
      * sequencer's machine. */
     struct portion *blocks, whole;
@@ -61,6 +62,18 @@ struct division {
     int turns_most;
     struct device_buffer stand_in; /* a leaf's array while nothing runs */
 };
+
+/* ---- portions.c ---- */
+
+/* One more draft, whose operands are there. */
+struct machine_value *portion_draft(struct portion *g, struct machine_value key,
+                                    struct draft_from from);
+void portion_free(struct portion *g); /* what it has */
+
+/* ---- portion_plan.c ---- */
+
+/* NULL: as plan_get(). */
+struct plan *portion_plan(struct portion *g, enum plan_use use);
 
 /* ---- division_graph.c ---- */
 

@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "base/errors.h"
-#include "plans/division.h"
-#include "plans/reach.h"
+#include "plans/far.h"
 #include "values/graph.h"
 
 /* ---- what can be in blocks ---- */
@@ -53,24 +52,6 @@ static int looks(struct machine *m, const struct machine_value *v, const int *of
 
 /* ---- drafts ---- */
 
-static struct machine_value *draft_add(struct portion *g, struct machine_value key,
-                                       struct draft_from from)
-{
-    struct machine_value *v = malloc(sizeof *v);
-    NEEDS_MEMORY(v);
-    *v = key;
-    v->generator = v->buffer ? GENERATOR_NONE : graph_generator(v);
-    if (g->reach.count == g->from_capacity) {
-        g->from_capacity = g->from_capacity ? 2 * g->from_capacity : 64;
-        g->from = realloc(g->from, (size_t)g->from_capacity * sizeof *g->from);
-        NEEDS_MEMORY(g->from);
-    }
-    g->from[g->reach.count] = from;
-    const int inputs = v->buffer ? 0 : node_ops[v->op].inputs;
-    NEEDS_MEMORY(reach_add(g->machine, &g->reach, v, inputs));
-    return v;
-}
-
 static struct machine_value *operation(struct portion *g, int op, int width, int detail,
                                        struct machine_value *a, struct machine_value *b)
 {
@@ -79,7 +60,7 @@ static struct machine_value *operation(struct portion *g, int op, int width, int
                                       .set = a->set,
                                       .detail = detail,
                                       .in = {a, b, NULL}};
-    return draft_add(g, key, (struct draft_from){DRAFT_MADE, 0, 0});
+    return portion_draft(g, key, (struct draft_from){DRAFT_MADE, 0, 0});
 }
 
 static struct machine_value *number(struct portion *g, int width, uint64_t x,
@@ -87,7 +68,7 @@ static struct machine_value *number(struct portion *g, int width, uint64_t x,
 {
     const struct machine_value key = {
         .op = NODE_CONSTANT, .type = MACHINE_UINT(width), .imm = {x, 0}};
-    return draft_add(g, key, from);
+    return portion_draft(g, key, from);
 }
 
 static struct machine_value *fixed(struct portion *g, int width, uint64_t x)
@@ -112,7 +93,7 @@ static struct machine_value *place(struct machine *m, struct portion *g,
     const uint64_t times = index ? s->count / c->length : 1, all = c->length * times;
     const struct machine_value key = {
         .op = index ? NODE_INDEX : NODE_COORDINATE, .type = MACHINE_UINT(32), .set = v->set};
-    struct machine_value *x = draft_add(g, key, (struct draft_from){DRAFT_MADE, node, 0}),
+    struct machine_value *x = portion_draft(g, key, (struct draft_from){DRAFT_MADE, node, 0}),
                          *first =
                              number(g, 32, 0, (struct draft_from){DRAFT_FIRST, node, times}),
                          *length = fixed(g, 32, all);
@@ -198,11 +179,11 @@ static struct machine_value *draft_of(struct machine *m, struct division *d, str
     key.buffer = v->buffer ? &d->stand_in : NULL;
     /* a draw's key is as much its number as a constant's */
     const bool numbered = is_number(v) || (!v->buffer && v->op == NODE_RANDOM);
-    return draft_add(g, key,
-                     (struct draft_from){v->buffer  ? DRAFT_LEAF
-                                         : numbered ? DRAFT_NUMBER
-                                                    : DRAFT_MADE,
-                                         node, 0});
+    return portion_draft(g, key,
+                         (struct draft_from){v->buffer  ? DRAFT_LEAF
+                                             : numbered ? DRAFT_NUMBER
+                                                        : DRAFT_MADE,
+                                             node, 0});
 }
 
 /* The drafts of all that these targets need. */
@@ -235,16 +216,6 @@ static void portion_make(struct machine *m, struct division *d, struct portion *
 
 /* ---- the division ---- */
 
-static void portion_free(struct portion *g)
-{
-    for (int i = 0; i < g->reach.count; i++)
-        free(g->reach.nodes[i]);
-    reach_finish(&g->reach);
-    free(g->from);
-    free(g->targets.values);
-    free(g->target_nodes);
-}
-
 void division_free(struct division *d)
 {
     if (!d)
@@ -253,6 +224,8 @@ void division_free(struct division *d)
         portion_free(&d->blocks[i]);
     free(d->blocks);
     portion_free(&d->whole);
+    if (d->far)
+        division_far_forget(d);
     free(d->reaches);
     free(d->needs);
     free(d);
@@ -317,6 +290,8 @@ struct division *division_make(struct machine *m, const struct plan_request *q)
     if (in_blocks) {
         portion_make(m, d, &d->whole, q, whole);
         reaches_note(m, d, q, of);
+        if (m->sequencers->far)
+            division_far_plan(d);
     }
     free(of);
     free(blocks);

@@ -23,7 +23,8 @@ struct strip {
 
 bool sequencers_can_across(const struct machine *m, int set)
 {
-    return m->settings.near && m->device->is_pocl && m->values->sets[set].rank > 1;
+    return m->settings.near && m->device->is_pocl && sequencers_are_near(m) &&
+           m->values->sets[set].rank > 1;
 }
 
 static struct strip strip_of(struct machine *m, int set, int column, int columns)

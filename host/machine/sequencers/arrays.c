@@ -6,6 +6,7 @@
 
 #include "base/errors.h"
 #include "base/types.h"
+#include "device/far.h"
 #include "sequencers/sequencers.h"
 
 static struct array_blocks *blocks_new(struct machine *m, int set, struct machine_type type)
@@ -43,6 +44,14 @@ void sequencers_array_gets(struct device_buffer *b, int block, struct device_buf
     b->blocks->of[block] = memory;
 }
 
+struct device_buffer *sequencers_block_get(struct machine *m, int set, int block,
+                                           struct machine_type type)
+{
+    const struct rows rows = geometry_rows(sequencers_set(m, set), type);
+    return m->sequencers->far && block ? device_far_get(m, block, rows)
+                                       : device_rows_get(m, rows);
+}
+
 /* ---- planes ---- */
 
 /* An array, and the set that it is of in its machine. */
@@ -65,6 +74,8 @@ static enum machine_status bytes_move(struct machine *m, const struct device_buf
 {
     if (!bytes) /* a block without planes of its own, which OpenCL refuses to copy */
         return MACHINE_OK;
+    if (from->rank || to->rank)
+        return device_move_far(m, from, from_at, to, to_at, bytes);
     if (m->settings.near && from->host && to->host) {
         enum machine_status status = device_settle(m);
         if (!status)
@@ -131,6 +142,13 @@ static enum machine_status ghosts_fetch(struct machine *m, const struct array_bl
     return status;
 }
 
+/* What went between ranks has arrived. */
+static enum machine_status moved(struct machine *m, enum machine_status status)
+{
+    const enum machine_status at_end = m->sequencers->far ? device_moves_end(m) : MACHINE_OK;
+    return status ? status : at_end;
+}
+
 static enum machine_status exchange(struct machine *m, struct array_blocks *a)
 {
     const struct cut *c = sequencers_cut(m, a->set);
@@ -142,6 +160,7 @@ static enum machine_status exchange(struct machine *m, struct array_blocks *a)
         status =
             status ? status : ghosts_fetch(m, a, c, i, all + own + (uint64_t)a->valid, fetched);
     }
+    status = moved(m, status);
     if (!status) {
         a->valid = c->ghosts;
         m->sequencers->exchanged++;
@@ -184,13 +203,13 @@ enum machine_status sequencers_divide(struct machine *m, struct device_buffer *b
     struct array_blocks *a = blocks_new(m, set, type);
     if (!a)
         return m->status;
-    const struct vpset *local = sequencers_set(m, set);
     const struct side whole = {b, &m->values->sets[set]};
     enum machine_status status = MACHINE_OK;
     for (int i = 0; i < a->count && !status; i++) {
-        a->of[i] = device_rows_get(m, geometry_rows(local, type));
+        a->of[i] = sequencers_block_get(m, set, i, type);
         status = a->of[i] ? block_fill(m, whole, a, c, i) : m->status;
     }
+    status = moved(m, status);
     if (status) {
         blocks_free(m, a);
         return status;
@@ -215,6 +234,7 @@ enum machine_status sequencers_whole(struct machine *m, struct device_buffer *b)
     for (int i = 0; i < a->count && !status; i++)
         status = planes_move(m, block_of(m, a, i), (uint64_t)c->ghosts, (struct side){whole, s},
                              c->first[i], c->first[i + 1] - c->first[i], a->element);
+    status = moved(m, status);
     status = status ? status : halos_make(m, (struct side){whole, s}, a->element);
     if (status) {
         device_buffer_unref(m, whole);

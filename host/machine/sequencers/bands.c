@@ -93,8 +93,7 @@ struct device_buffer *sequencers_array_full(struct machine *m, int set,
         return NULL;
     b->blocks->valid = c->ghosts;
     for (int i = 0; i < m->sequencers->count; i++) {
-        struct device_buffer *memory =
-            device_rows_get(m, geometry_rows(sequencers_set(m, set), type));
+        struct device_buffer *memory = sequencers_block_get(m, set, i, type);
         if (!memory) {
             device_buffer_unref(m, b);
             return NULL;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/errors.h"
+#include "ranks/ranks.h"
 #include "sequencers/sequencers.h"
 
 /* Smaller sets are not worth a message. LINE_GHOSTS: of a set with one axis, whose planes are
@@ -94,6 +95,9 @@ static void cut_make(struct machine *m, int set, struct cut *c)
         geometry_make(local, &local->values->sets[set], dimensions, s->rank, &s->layout);
     }
     set_share(m->sequencers, set);
+    if (c->is && m->sequencers->far)
+        ranks_command_all((struct ranks_command){RANKS_SET, sizeof *s, {(uint64_t)set}},
+                          &local->values->sets[set]);
 }
 
 /* As many sets as the front end has. */

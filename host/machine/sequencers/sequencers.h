@@ -42,6 +42,9 @@ struct sequencers {
      * these are enough; else one for all, with the front end's device. */
     struct machine *machines[BLOCKS_MOST];
     int machines_count;
+    /* Block i is in the memory of rank i, which computes it. Here are the front end and block
+     * 0, with one machine. Whole instructions look at arrays in one piece. */
+    bool far;
     struct cut *cuts; /* by set */
     int cuts_count;
     /* Plans, and whole instructions, run in blocks, each by all; arrays put into blocks, and
@@ -66,6 +69,9 @@ int cut_owner(const struct cut *c, int count, uint64_t plane, uint64_t *at);
 
 /* ---- arrays.c ---- */
 
+/* A block's memory, with any numbers. NULL: error set. */
+struct device_buffer *sequencers_block_get(struct machine *m, int set, int block,
+                                           struct machine_type type);
 /* A new array in blocks, without memory yet: sequencers_array_gets() gives each block what it
  * has. refs 1; NULL: error set. */
 struct device_buffer *sequencers_array(struct machine *m, int set, struct machine_type type);
@@ -122,6 +128,11 @@ typedef struct device_buffer *sequencers_work(struct machine *m, const struct vp
  * of each; -1: error set. */
 int sequencers_divide_all(struct machine *m, int set, struct machine_value *const *values,
                           int count);
+/* Whether the front end sees all blocks' arrays, and may compute with them itself. */
+static inline bool sequencers_are_near(const struct machine *m)
+{
+    return !m->sequencers->far;
+}
 /* Whether some of the values' arrays are in blocks only: then all are asked for in blocks. */
 bool sequencers_have_some(struct machine_value *const *values, int count);
 static inline bool sequencers_have(const struct machine *m, struct machine_value *const *values,
