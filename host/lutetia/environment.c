@@ -32,6 +32,9 @@ const struct environment_row environment_rows[] = {
      "info` "
      "(the first)"},
 
+    {"LUTETIA_RANKS", "0", PARIS,
+     "processes that mpirun or srun makes of a C/Paris program are programs of their own, and "
+     "not one on several processes"},
     {"LUTETIA_EXPLAIN", "FILE", PARIS,
      "when the program ends, what its machine did is written there as text"},
     {"LUTETIA_EXPLAIN_JSON", "FILE", PARIS, "the same as JSON"},
