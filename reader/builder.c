@@ -353,8 +353,16 @@ void reader_label_set(struct reader_builder *b, const char *name, size_t bytes)
 {
     struct reader_document *d = b->document;
     char *copy = strndup(name, bytes);
-    if (!copy || !array_reserve(&d->labels, &d->labels_capacity, d->labels_count + 1,
-                                sizeof *d->labels)) {
+    if (b->in_note && copy && d->notes_count &&
+        array_reserve(&d->note_labels, &d->note_labels_capacity, d->note_labels_count + 1,
+                      sizeof *d->note_labels)) {
+        d->note_labels[d->note_labels_count++] = (struct reader_note_label){
+            .name = copy, .source = d->sources_count, .note = d->notes_count - 1};
+        return;
+    }
+    if (b->in_note || !copy ||
+        !array_reserve(&d->labels, &d->labels_capacity, d->labels_count + 1,
+                       sizeof *d->labels)) {
         free(copy);
         reader_builder_fail(b);
         return;

@@ -7,6 +7,7 @@
 
 struct cited {
     struct reader_document *d;
+    const struct reader_files *files; /* NULL: none is known */
     const int *entry_of; /* of blocks: the first one of the entry that they are of; or -1 */
     struct reader_citation *list;
     int count, capacity;
@@ -23,12 +24,13 @@ static int entry_find(const struct cited *c, const struct reader_block *from,
                       const struct reader_span *span)
 {
     const struct reader_document *d = c->d;
-    if (!(span->look & READER_LINK) || !span->target || span->target[0] != '#')
+    if (!(span->look & READER_LINK) || !span->target)
         return -1;
-    const struct reader_block *place = reader_document_label(d, span->target + 1, from->source);
-    if (!place)
-        place = reader_document_label(d, span->target + 1, -1);
-    return place ? c->entry_of[place - d->blocks] : -1;
+    const struct reader_block *place =
+        reader_place_find(d, c->files, span->target, from->source);
+    return place && place >= d->blocks && place < d->blocks + d->blocks_count
+               ? c->entry_of[place - d->blocks]
+               : -1;
 }
 
 /* What a block cites: where is the block that one is led back to. */
@@ -87,10 +89,11 @@ static void sort(struct cited *c)
     c->count = kept;
 }
 
-enum reader_status reader_citations_find(struct reader_document *d, const int *entry_of,
+enum reader_status reader_citations_find(struct reader_document *d,
+                                         const struct reader_files *files, const int *entry_of,
                                          struct reader_citation **list, int *count)
 {
-    struct cited c = {.d = d, .entry_of = entry_of};
+    struct cited c = {.d = d, .files = files, .entry_of = entry_of};
     c.calls = malloc(((size_t)d->notes_count + 1) * sizeof *c.calls);
     enum reader_status status = c.calls ? READER_OK : no_memory();
     if (status == READER_OK)

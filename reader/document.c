@@ -30,6 +30,9 @@ void reader_document_destroy(struct reader_document *d)
     }
     for (int i = 0; i < d->labels_count; i++)
         free(d->labels[i].name);
+    for (int i = 0; i < d->note_labels_count; i++)
+        free(d->note_labels[i].name);
+    free(d->note_labels);
     free(d->labels);
     free(d->lost);
     free(d->plain);

@@ -80,7 +80,7 @@ static enum reader_status all_read(struct reader_files *held, struct reader_file
             status = reader_files_add(files, *out, held->paths[i], held->texts[i].text,
                                       held->texts[i].bytes);
     if (status == READER_OK)
-        status = reader_document_refer(*out);
+        status = reader_files_refer(files, *out);
     if (status == READER_OK)
         status = reader_document_plain(*out);
     files->held = NULL;

@@ -218,6 +218,10 @@ static bool labels_stay(const struct reader_document *was, const struct reader_d
     for (int i = 0; i < was->labels_count && same; i++)
         same = was->labels[i].block == now->labels[i].block &&
                strcmp(was->labels[i].name, now->labels[i].name) == 0;
+    same = same && was->note_labels_count == now->note_labels_count;
+    for (int i = 0; i < was->note_labels_count && same; i++)
+        same = was->note_labels[i].note == now->note_labels[i].note &&
+               strcmp(was->note_labels[i].name, now->note_labels[i].name) == 0;
     return same;
 }
 

@@ -264,7 +264,7 @@ static bool links_stay(const struct reader_block *was, const struct reader_block
     } while (a);
     for (k = 0; k < now->spans_count; k++) {
         const struct reader_span *s = &now->spans[k];
-        if (s->target && s->target[0] == '#' &&
+        if (s->target && strchr(s->target, '#') &&
             memchr(now->text + s->begin, '#', (size_t)(s->end - s->begin)))
             return false;
     }

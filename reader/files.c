@@ -195,6 +195,24 @@ static const char *included_open(struct reader_files *files, int source, const c
     return why ? why : text_read(files, in);
 }
 
+int reader_files_source(const struct reader_files *files, int from, const char *path,
+                        size_t bytes)
+{
+    char *named = NULL, *whole = NULL;
+    int source = -1;
+    if (!files || from < 0 || from >= files->count || bytes >= PATH_MAX)
+        return -1;
+    if (asprintf(&named, "%.*s%.*s", (int)folder_bytes(files->paths[from]), files->paths[from],
+                 (int)bytes, path) < 0)
+        return -1;
+    whole = realpath(named, NULL);
+    for (int i = 0; whole && source < 0 && i < files->count; i++)
+        source = files->whole[i] && strcmp(files->whole[i], whole) == 0 ? i : -1;
+    free(whole);
+    free(named);
+    return source;
+}
+
 /* ---- including ---- */
 
 static enum reader_status refused_add(struct reader_files *files,

@@ -27,6 +27,7 @@ static const char style_begin[] =
     "img.among{vertical-align:baseline}\n"
     "figcaption{font-size:.92em}\n" HTML_BESIDE_STYLE ".math{text-align:center}\n"
     ".formula{filter:var(--formula)}\n"
+    "caption{font-style:italic;text-align:left}\n"
     "table{border-collapse:collapse;font-size:.92em;margin:.6em 0}\n"
     "td,th{padding:.1em .6em;vertical-align:top;border-top:1px solid var(--struck)}\n"
     "sup,sub{line-height:0}\n"
@@ -382,6 +383,8 @@ static void blocks_put(struct html *h, const struct reader_block *blocks, int co
         if (!row || first)
             nest(h, block);
         fputs(first ? "<table>\n" : "", h->f);
+        if (first && block->number)
+            fprintf(h->f, "<caption>Table %d</caption>\n", block->number);
         block_put(h, block);
         fputs(last ? "</table>\n" : "", h->f);
         if (!row || last)

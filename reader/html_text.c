@@ -8,26 +8,6 @@
 
 /* ---- links ---- */
 
-/* Which of the document's files a link of one names; -1: none. */
-static int source_of(const struct html *h, int from, const char *path, size_t bytes)
-{
-    const struct reader_files *files = h->setup->files;
-    char *named = NULL, *whole = NULL;
-    int source = -1;
-    if (!files || from >= files->count)
-        return -1;
-    const char *slash = strrchr(files->paths[from], '/');
-    const int folder = slash ? (int)(slash + 1 - files->paths[from]) : 0;
-    if (bytes < PATH_MAX &&
-        asprintf(&named, "%.*s%.*s", folder, files->paths[from], (int)bytes, path) >= 0)
-        whole = realpath(named, NULL);
-    for (int i = 0; whole && source < 0 && i < files->count; i++)
-        source = files->whole[i] && strcmp(files->whole[i], whole) == 0 ? i : -1;
-    free(whole);
-    free(named);
-    return source;
-}
-
 /* The first block of a file; -1: it has none. */
 static int source_begin(const struct reader_document *d, int source)
 {
@@ -44,19 +24,27 @@ static int link_block(const struct html *h, const char *target, int source)
     const char *mark = strchr(target, '#');
     int to = source;
     if (target != mark) {
-        to =
-            strchr(target, ':') || *target == '/' || !*target
-                ? -1
-                : source_of(h, source, target, mark ? (size_t)(mark - target) : strlen(target));
+        to = strchr(target, ':') || *target == '/' || !*target
+                 ? -1
+                 : reader_files_source(h->setup->files, source, target,
+                                       mark ? (size_t)(mark - target) : strlen(target));
         if (to < 0)
             return -1;
     }
     const struct reader_block *block = mark ? reader_document_label(d, mark + 1, to) : NULL;
     if (!block && mark && target == mark)
         block = reader_document_label(d, mark + 1, -1);
-    if (block)
+    if (block && reader_document_note(d, block) < 0)
         return (int)(block - d->blocks);
     return target == mark ? -1 : source_begin(d, to);
+}
+
+/* The note that a link leads to; -1: it leads elsewhere. */
+static int link_note(const struct html *h, const char *target, int source)
+{
+    const struct reader_block *place =
+        reader_place_find(h->document, h->setup->files, target, source);
+    return place ? reader_document_note(h->document, place) : -1;
 }
 
 /* Whether a browser would read it as another address than it looks like: it leaves out control
@@ -89,8 +77,11 @@ static bool is_followed(const char *target)
 static bool link_begin(struct html *h, const struct reader_block *block,
                        const struct reader_span *span)
 {
-    const int to = span->target ? link_block(h, span->target, block->source) : -1;
-    if (to >= 0) {
+    const int note = span->target ? link_note(h, span->target, block->source) : -1,
+              to = span->target ? link_block(h, span->target, block->source) : -1;
+    if (note >= 0) {
+        fprintf(h->f, "<a href=\"#n.%d\">", note + 1);
+    } else if (to >= 0) {
         fprintf(h->f, "<a href=\"#b.%d\">", to);
     } else if (span->target && is_followed(span->target)) {
         fputs("<a href=\"", h->f);

@@ -45,6 +45,60 @@ static char *heading_name(const struct reader_block *block, locale_t utf8)
     return name;
 }
 
+/* ---- labels within notes ---- */
+
+static int by_note_name(const void *a, const void *b)
+{
+    const struct reader_note_label *x = a, *y = b;
+    const int names = strcmp(x->name, y->name);
+    if (names)
+        return names;
+    return x->source != y->source ? x->source - y->source : x->note - y->note;
+}
+
+/* NULL: there is none. */
+static const struct reader_block *note_find(const struct reader_document *d, const char *label,
+                                            int source)
+{
+    int low = 0, high = d->note_labels_count;
+    while (low < high) {
+        const int half = low + (high - low) / 2;
+        const struct reader_note_label *l = &d->note_labels[half];
+        const int names = strcmp(l->name, label);
+        if (names < 0 || (names == 0 && l->source < source))
+            low = half + 1;
+        else
+            high = half;
+    }
+    const struct reader_note_label *found =
+        low < d->note_labels_count ? &d->note_labels[low] : NULL;
+    return found && strcmp(found->name, label) == 0 &&
+                   (source < 0 || found->source == source) && d->notes[found->note].blocks_count
+               ? &d->note_blocks[d->notes[found->note].first_block]
+               : NULL;
+}
+
+int reader_document_note(const struct reader_document *d, const struct reader_block *block)
+{
+    int low = 0, high = d->notes_count;
+    if (block < d->note_blocks || block >= d->note_blocks + d->note_blocks_count)
+        return -1;
+    const int at = (int)(block - d->note_blocks);
+    while (high - low > 1) {
+        const int half = low + (high - low) / 2;
+        if (d->notes[half].first_block <= at)
+            low = half;
+        else
+            high = half;
+    }
+    while (low + 1 < d->notes_count && d->notes[low].blocks_count == 0)
+        low++;
+    return low < d->notes_count && at >= d->notes[low].first_block &&
+                   at < d->notes[low].first_block + d->notes[low].blocks_count
+               ? low
+               : -1;
+}
+
 /* ---- the list ---- */
 
 static enum reader_status label_add(struct reader_document *d, char *name, int source,
@@ -128,6 +182,9 @@ enum reader_status reader_labels_make(struct reader_document *d)
     if (utf8)
         freelocale(utf8);
     labels_sort(d);
+    if (d->note_labels_count)
+        qsort(d->note_labels, (size_t)d->note_labels_count, sizeof *d->note_labels,
+              by_note_name);
     if (status == READER_OK)
         status = repeated_add(d);
     first_find(d);
@@ -187,6 +244,24 @@ const struct reader_block *reader_document_label(const struct reader_document *d
     const struct reader_label *found =
         d->referred && low < d->labels_count ? &d->labels[low] : NULL;
     if (!found || strcmp(found->name, label) != 0 || (source >= 0 && found->source != source))
-        return NULL;
+        return d->referred ? note_find(d, label, source) : NULL;
     return &d->blocks[source < 0 ? found->first : found->block];
+}
+
+const struct reader_block *reader_place_find(const struct reader_document *d,
+                                             const struct reader_files *files,
+                                             const char *target, int source)
+{
+    const char *mark = strchr(target, '#');
+    if (!mark || !mark[1])
+        return NULL;
+    if (mark != target) {
+        const int other =
+            strchr(target, ':') || *target == '/'
+                ? -1
+                : reader_files_source(files, source, target, (size_t)(mark - target));
+        return other < 0 ? NULL : reader_document_label(d, mark + 1, other);
+    }
+    const struct reader_block *own = reader_document_label(d, mark + 1, source);
+    return own ? own : reader_document_label(d, mark + 1, -1);
 }

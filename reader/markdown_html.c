@@ -52,7 +52,7 @@ static void label_read(struct walk *w, const struct tag *tag)
         name = tag_attribute(tag, "name");
     const size_t bytes = name ? strlen(name) : 0;
     if (bytes >= 1 && bytes <= READER_LABEL_BYTES && !strpbrk(name, " \t\n\"'<>=`#") &&
-        !w->b.in_note && d->labels_count < READER_LABELS_MAX)
+        d->labels_count + d->note_labels_count < READER_LABELS_MAX)
         reader_label_set(&w->b, name, bytes);
     free(name);
 }

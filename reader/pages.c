@@ -118,6 +118,11 @@ static enum reader_status text_add(struct reader_pages *p, const struct reader_b
     else if (!p->behind_head && !block->continues)
         manner.indent_px = 1.2 * em;
     quote_part(p, block, &manner);
+    if (block->number) { /* a table's caption */
+        manner.keep_with_next = true;
+        manner.indent_px = 0;
+        manner.before_px = 0.5 * em;
+    }
     pages_align(block, &manner);
     if (block->align != READER_ALIGN_USUAL)
         manner.after_px = fmax(manner.after_px, 0.4 * em);

@@ -3,6 +3,7 @@
 #include "pages_internal.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -182,12 +183,30 @@ static enum reader_status row_told(struct reader_pages *p, const struct reader_b
     return status;
 }
 
+/* What a table without a caption is called, over it. */
+static enum reader_status number_put(struct reader_pages *p, int number)
+{
+    struct paragraph_text t = {0};
+    struct page_manner manner = pages_manner(p, CONTEXT_TABLE);
+    char words[32];
+    snprintf(words, sizeof words, "Table %d", number);
+    manner.before_px = 0.5 * p->setup.size_px;
+    manner.keep_with_next = true;
+    enum reader_status status = pages_text_add(&t, words, (int)strlen(words), READER_SLANTED)
+                                    ? pages_paragraph_add(p, &t, CONTEXT_TABLE, &manner, false)
+                                    : pages_no_memory();
+    pages_text_finish(&t);
+    return status;
+}
+
 enum reader_status pages_table_add(struct reader_pages *p, const struct reader_block *rows,
                                    int count)
 {
     struct columns c;
-    enum reader_status status = columns_measure(p, rows, count, &c);
-    bool fits = c.all <= pages_column(p);
+    enum reader_status status = rows[0].number ? number_put(p, rows[0].number) : READER_OK;
+    if (status == READER_OK)
+        status = columns_measure(p, rows, count, &c);
+    const bool fits = status == READER_OK && c.all <= pages_column(p);
     const struct reader_block *head = rows[0].head && count > 1 ? &rows[0] : NULL;
     for (int r = 0; r < count && status == READER_OK; r++)
         if (fits)

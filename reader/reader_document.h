@@ -170,8 +170,8 @@ struct reader_block {
     bool head;                     /* of a row: the table's first */
     int columns;
     char aligns[READER_COLUMNS_MAX]; /* of a row: l, c, r */
-    int number;                      /* of a figure or a formula that has a label; else 0 */
-    size_t at; /* of its text in the document's plain text, once that has been made */
+    int number; /* of a figure, a formula or a table (its first row) that has a label; else 0 */
+    size_t at;  /* of its text in the document's plain text, once that has been made */
 };
 
 struct reader_note {
@@ -185,6 +185,12 @@ struct reader_label {
     int source, block; /* block: of the document's */
     int first;         /* the first block of all that are called so */
     bool heading;      /* by its words */
+};
+
+/* The same of a note, which is called so from within. */
+struct reader_note_label {
+    char *name;
+    int source, note;
 };
 
 /* A reference that leads nowhere. */
@@ -201,6 +207,8 @@ struct reader_document {
     int sources_count, tables_count;
     struct reader_label *labels; /* by their names, once reader_document_refer() was called */
     int labels_count;
+    struct reader_note_label *note_labels; /* likewise */
+    int note_labels_count;
     struct reader_lost *lost; /* the first of them */
     int lost_count;
     long lost_all;
@@ -209,7 +217,8 @@ struct reader_document {
     char *plain;     /* NULL: reader_document_plain() has not made it */
     size_t plain_bytes;
     /* What arrays have room for. */
-    int blocks_capacity, note_blocks_capacity, notes_capacity, labels_capacity;
+    int blocks_capacity, note_blocks_capacity, notes_capacity, labels_capacity,
+        note_labels_capacity;
 };
 
 /* Without blocks. Errors: NO_MEMORY. Owns: the caller destroys *out. */
@@ -223,18 +232,23 @@ enum reader_status reader_document_add(struct reader_document *document, const c
                                        size_t bytes);
 void reader_document_destroy(struct reader_document *document); /* NULL is fine */
 
-/* Figures and formulas that have labels get their numbers, and references the names of what
- * they lead to: once all sources are there. Before that the bibliography of each source is
+/* Figures, formulas and tables that have labels get their numbers, and references the names of
+ * what they lead to: once all sources are there. Before that the bibliography of each source is
  * sorted by its entries' letters and numbered: the list that has the label "bibliography", or
  * is the first under a heading that has it. Entries that links lead to have links back. Of a
  * reference whose label is not there stands what is written, and it is among those that are
  * lost. Errors: NO_MEMORY; the document may then have a part of it. */
 enum reader_status reader_document_refer(struct reader_document *document);
 /* The block that has a label, or the heading of that name (small letters, digits, hyphens for
- * blanks), in a source of the document's (-1: in any). NULL: there is none, or
- * reader_document_refer() was not called. Owns: the document. */
+ * blanks), in a source of the document's (-1: in any); a note's first one, if the label is in
+ * the note. NULL: there is none, or reader_document_refer() was not called. Owns: the
+ * document. */
 const struct reader_block *reader_document_label(const struct reader_document *document,
                                                  const char *label, int source);
+
+/* Which note a block of notes is of; -1: it is none of the document's notes'. */
+int reader_document_note(const struct reader_document *document,
+                         const struct reader_block *block);
 
 /* Makes its plain text: what is read, block after block, then its notes, without what only says
  * how it looks. Places in it are what is searched, selected and annotated: they stay what they

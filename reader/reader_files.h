@@ -55,6 +55,13 @@ struct reader_files {
 enum reader_status reader_files_add(struct reader_files *files,
                                     struct reader_document *document, const char *path,
                                     const char *utf8, size_t bytes);
+/* Which of the document's files a link of one of them means by that path; -1: none. */
+int reader_files_source(const struct reader_files *files, int from, const char *path,
+                        size_t bytes);
+/* reader_document_refer(), and references lead to labels of the other files, too:
+ * [#](other.md#label). */
+enum reader_status reader_files_refer(const struct reader_files *files,
+                                      struct reader_document *document);
 void reader_files_finish(struct reader_files *files); /* all zeros are fine */
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef LUTETIA_READER_INTERNAL_H
 #define LUTETIA_READER_INTERNAL_H
 
-#include "reader_document.h"
+#include "reader_files.h"
 
 #include <array.h>
 #include <error_text.h>
@@ -38,10 +38,17 @@ struct reader_citation {
 };
 /* In the order of entries and places, each once. Errors: NO_MEMORY. Owns: the caller frees
  * *list. */
-enum reader_status reader_citations_find(struct reader_document *d, const int *entry_of,
+enum reader_status reader_citations_find(struct reader_document *d,
+                                         const struct reader_files *files, const int *entry_of,
                                          struct reader_citation **list, int *count);
 
 /* ---- labels.c ---- */
+
+/* The place that a link of a source leads to, in that or another one of the document's; NULL:
+ * it leads to none. files: NULL: paths lead nowhere. */
+const struct reader_block *reader_place_find(const struct reader_document *d,
+                                             const struct reader_files *files,
+                                             const char *target, int source);
 
 /* What a place is called that an entry leads back to; no label of a document's is so. */
 enum { READER_CITED_BYTES = 24 };

@@ -17,6 +17,7 @@ enum {
 
 struct refer {
     struct reader_document *document;
+    const struct reader_files *files; /* NULL: none is known */
     const int *above; /* for each block: the heading that it stands under; -1: none */
     const struct reader_citation *cited; /* of the entry that is written anew */
     int cited_count;
@@ -48,8 +49,8 @@ static int sign_find(const char *text, int bytes)
 static int reference_sign(const struct reader_block *block, const struct reader_span *span)
 {
     const unsigned others = READER_CODE | READER_NOTE | READER_FORMULA | READER_IMAGE;
-    if (!(span->look & READER_LINK) || (span->look & others) || !span->target ||
-        span->target[0] != '#' || !span->target[1])
+    const char *mark = span->target ? strchr(span->target, '#') : NULL;
+    if (!(span->look & READER_LINK) || (span->look & others) || !mark || !mark[1])
         return -1;
     return sign_find(block->text + span->begin, span->end - span->begin);
 }
@@ -141,27 +142,75 @@ static int digits_of(const char *marker)
     return marker ? (int)strspn(marker, "0123456789") : 0;
 }
 
+/* Whether the sign stands alone in its own words, which are no link's. */
+static bool has_sign(const struct reader_block *block)
+{
+    for (int i = 0; i < block->spans_count; i++)
+        if (!(block->spans[i].look & READER_LINK) &&
+            sign_find(block->text + block->spans[i].begin,
+                      block->spans[i].end - block->spans[i].begin) >= 0)
+            return true;
+    return false;
+}
+
+/* Whether the paragraph is the caption of a table that follows: it has a place for a number. */
+static bool is_caption(const struct reader_document *d, int i)
+{
+    const struct reader_block *block = &d->blocks[i];
+    return block->kind == READER_PARAGRAPH && i + 1 < d->blocks_count &&
+           block[1].kind == READER_ROW && block[1].source == block->source && has_sign(block);
+}
+
+/* Of a figure, a formula, a table (its first row, or the caption over it); -1: it has none. */
+static int numbered_of(const struct reader_document *d, int i)
+{
+    const struct reader_block *block = &d->blocks[i];
+    if (block->kind == READER_PICTURE || block->kind == READER_MATH || is_caption(d, i))
+        return i;
+    const bool first = block->kind == READER_ROW && (i == 0 || block[-1].kind != READER_ROW ||
+                                                     block[-1].table != block->table);
+    if (!first)
+        return -1;
+    return i > 0 && is_caption(d, i - 1) ? i - 1 : i;
+}
+
+/* What its number is of; NULL: a formula. */
+static const char *kind_of(const struct reader_block *block)
+{
+    return block->kind == READER_PICTURE                                  ? "Figure"
+           : block->kind == READER_ROW || block->kind == READER_PARAGRAPH ? "Table"
+                                                                          : NULL;
+}
+
 /* What a place is called: a number, or the title of the heading that it stands under. alone:
  * it is said what the number is of. */
 static void name_put(struct refer *r, const struct reader_block *block, bool alone,
                      const struct reader_span *like)
 {
-    const int number = block->number, above = r->above[block - r->document->blocks],
+    const struct reader_document *d = r->document;
+    const int note = reader_document_note(d, block);
+    if (block->kind == READER_ROW && block > d->blocks && block[-1].kind == READER_PARAGRAPH &&
+        block[-1].number) /* its caption has it */
+        block--;
+    const int number = note >= 0 ? note + 1 : block->number,
+              above = note >= 0 ? -1 : r->above[block - d->blocks],
               digits = digits_of(block->marker);
+    const char *kind = note >= 0 ? "Note" : kind_of(block);
     char words[40];
     if (number) {
-        snprintf(words, sizeof words,
-                 !alone                          ? "%d"
-                 : block->kind == READER_PICTURE ? "Figure %d"
-                                                 : "(%d)",
-                 number);
+        if (!alone)
+            snprintf(words, sizeof words, "%d", number);
+        else if (kind)
+            snprintf(words, sizeof words, "%s %d", kind, number);
+        else
+            snprintf(words, sizeof words, "(%d)", number);
         words_put(r, words, like);
     } else if (digits) {
         line_put(r, block->marker, digits, like);
     } else if (above >= 0) {
         title_put(r, &r->document->blocks[above], like);
     } else {
-        words_put(r, like->target + 1, like); /* the label */
+        words_put(r, strchr(like->target, '#') + 1, like); /* the label */
     }
 }
 
@@ -179,13 +228,6 @@ static void lost_add(struct refer *r, const struct reader_block *block, const ch
     while (bytes > 0 && ((unsigned char)label[bytes] & 0xc0) == 0x80) /* no part of a letter */
         bytes--;
     memcpy(lost->label, label, bytes);
-}
-
-static const struct reader_block *place_find(const struct reader_document *d, const char *label,
-                                             int source)
-{
-    const struct reader_block *own = reader_document_label(d, label, source);
-    return own ? own : reader_document_label(d, label, -1);
 }
 
 /* As it is written in Markdown: nothing has that label. */
@@ -208,8 +250,15 @@ static void reference_put(struct refer *r, const struct reader_block *from,
     const char *text = from->text + span->begin;
     const int bytes = span->end - span->begin, bytes_before = r->to.bytes,
               spans_before = r->to.spans_count;
-    const struct reader_block *place = place_find(r->document, span->target + 1, from->source);
-    if (place) {
+    const struct reader_block *place =
+        reader_place_find(r->document, r->files, span->target, from->source);
+    const char *mark = strchr(span->target, '#');
+    const bool elsewhere = !place && mark != span->target &&
+                           reader_files_source(r->files, from->source, span->target,
+                                               (size_t)(mark - span->target)) < 0;
+    if (elsewhere) { /* in a file that is none of the document's */
+        text_put(r, text, bytes, span);
+    } else if (place) {
         text_put(r, text, sign, span);
         name_put(r, place, bytes == 1, span);
         text_put(r, text + sign + 1, bytes - sign - 1, span);
@@ -228,14 +277,10 @@ static void reference_put(struct refer *r, const struct reader_block *from,
 static void caption_write(struct refer *r, const struct reader_block *from)
 {
     const struct reader_span plain = {.note = -1, .look = READER_SLANTED};
-    bool put = false;
+    bool put = has_sign(from);
     char number[16], before[40];
     snprintf(number, sizeof number, "%d", from->number);
     snprintf(before, sizeof before, from->bytes ? "Figure %d: " : "Figure %d", from->number);
-    for (int i = 0; i < from->spans_count && !put; i++)
-        put = !(from->spans[i].look & READER_LINK) &&
-              sign_find(from->text + from->spans[i].begin,
-                        from->spans[i].end - from->spans[i].begin) >= 0;
     if (!put)
         words_put(r, before, &plain);
     for (int i = 0; i < from->spans_count; i++) {
@@ -295,7 +340,7 @@ static void block_write(struct refer *r, struct reader_block *block,
 static void block_refer(struct refer *r, struct reader_block *block)
 {
     bool refers = false;
-    if (block->number && block->kind == READER_PICTURE)
+    if (block->number && (block->kind == READER_PICTURE || block->kind == READER_PARAGRAPH))
         block_write(r, block, caption_write);
     if (block->kind == READER_HEADING) /* a title leads nowhere by another one */
         return;
@@ -347,18 +392,21 @@ static void entries_write(struct refer *r, const int *entry_of,
     }
 }
 
-/* Figures and formulas that have labels are counted. */
+/* Figures, formulas and tables that have labels are counted. */
 static void numbers_give(struct reader_document *d)
 {
-    int figures = 0, formulas = 0;
-    for (int i = 0; i < d->labels_count; i++)
-        d->blocks[d->labels[i].block].number = 1;
+    int figures = 0, formulas = 0, tables = 0;
+    for (int i = 0; i < d->labels_count; i++) {
+        const int own = numbered_of(d, d->labels[i].block);
+        if (own >= 0)
+            d->blocks[own].number = 1;
+    }
     for (int i = 0; i < d->blocks_count; i++) {
         struct reader_block *block = &d->blocks[i];
         if (block->number)
             block->number = block->kind == READER_PICTURE ? ++figures
                             : block->kind == READER_MATH  ? ++formulas
-                                                          : 0;
+                                                          : ++tables;
     }
 }
 
@@ -381,7 +429,7 @@ static void all_write(struct refer *r, const int *entry_of)
     struct reader_document *d = r->document;
     struct reader_citation *list = NULL;
     int count = 0;
-    r->status = reader_citations_find(d, entry_of, &list, &count);
+    r->status = reader_citations_find(d, r->files, entry_of, &list, &count);
     if (r->status == READER_OK)
         r->status = reader_labels_cited(d, list, count);
     for (int i = 0; i < d->blocks_count && r->status == READER_OK; i++)
@@ -394,7 +442,13 @@ static void all_write(struct refer *r, const int *entry_of)
 
 enum reader_status reader_document_refer(struct reader_document *d)
 {
-    struct refer r = {.document = d};
+    return reader_files_refer(NULL, d);
+}
+
+enum reader_status reader_files_refer(const struct reader_files *files,
+                                      struct reader_document *d)
+{
+    struct refer r = {.document = d, .files = files};
     if (d->referred)
         return READER_OK;
     d->referred = true;

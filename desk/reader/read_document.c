@@ -64,7 +64,7 @@ static struct reader_document *files_read(struct read_desk *d, struct reader_fil
         }
         g_free(text);
     }
-    if (good && (reader_document_refer(document) != READER_OK ||
+    if (good && (reader_files_refer(files, document) != READER_OK ||
                  reader_document_plain(document) != READER_OK)) {
         d->say(d, reader_error());
         good = false;

@@ -196,7 +196,7 @@ static int document_read(const struct option_words *words, struct reader_documen
         if (status != EXIT_SUCCESS)
             return status;
     }
-    return reader_document_refer(*document) == READER_OK ? EXIT_SUCCESS : fail_reader(NULL);
+    return reader_files_refer(files, *document) == READER_OK ? EXIT_SUCCESS : fail_reader(NULL);
 }
 
 /* Files that are not included, and references that lead nowhere, one a line. */

@@ -235,6 +235,24 @@ static void references_have_names(void **state)
 }
 
 /* What leads nowhere stands as it is written, and is listed. */
+/* Tables that have labels are numbered, and notes may have labels, too. */
+static void tables_and_notes_have_names(void **state)
+{
+    (void)state;
+    blocks_are("[#](#a), [tables # and](#b) [#](#c), [#](#d)[^1].\n\n<a id=\"a\"></a>\n\n"
+               "| x |\n|---|\n| <a id=\"d\"></a>y |\n\n"
+               "<a id=\"b\"></a>Table #: More\n\n| z |\n|---|\n\n| no label |\n|---|\n\n"
+               "Tabelle #\n\n| <a id=\"c\"></a>w |\n|---|\n\n[^1]: n\n",
+               "p [Table 1](#a), [tables ](#b)[2](#b)[ and](#b) [Table 3](#c), [d](#d)^1^.\n"
+               "row #1 x\nrow y\np #2 Table 2: More\nrow z\nrow no label\n"
+               "p #3 Tabelle 3\nrow w\nnote :1\np n\n");
+    blocks_are(
+        "# H\n\n[#](#x), [see # above](#y), [#](#z)[^a][^b].\n\n[^a]: <a id=\"x\"></a>One\n"
+        "[^b]: Two [#](#x)\n\n    <a id=\"y\"></a>and more\n",
+        "h1 H\np [Note 1](#x), [see ](#y)[2](#y)[ above](#y), [#](#z)^1^^2^.\n"
+        "note :a\np One\nnote :b\np Two [Note 1](#x)\np and more\n");
+}
+
 static void lost_references_are_listed(void **state)
 {
     (void)state;
@@ -501,6 +519,7 @@ int main(void)
         cmocka_unit_test(formulas_are_kept_from_markdown),
         cmocka_unit_test(labels_are_found),
         cmocka_unit_test(references_have_names),
+        cmocka_unit_test(tables_and_notes_have_names),
         cmocka_unit_test(lost_references_are_listed),
         cmocka_unit_test(bibliographies_are_sorted),
         cmocka_unit_test(references_are_bounded),

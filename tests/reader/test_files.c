@@ -63,7 +63,7 @@ static enum reader_status read_try(struct read *r, const char *path)
     enum reader_status status =
         reader_files_add(&r->files, r->document, path, text, strlen(text));
     if (status == READER_OK)
-        status = reader_document_refer(r->document);
+        status = reader_files_refer(&r->files, r->document);
     if (status == READER_OK)
         status = reader_document_plain(r->document);
     free(text);
@@ -82,6 +82,31 @@ static void read_end(struct read *r)
 {
     reader_document_destroy(r->document);
     reader_files_finish(&r->files);
+}
+
+/* ---- references between files ---- */
+
+/* To labels of other files of the document, numbers and citations; a file that is none of its
+ * own stays a link. */
+static void references_lead_to_other_files(void **state)
+{
+    (void)state;
+    mkdir(path_of("deep"), 0700);
+    file_write("all.md",
+               "# All\n\nBy [#](deep/one.md#fig), [page #](deep/one.md#two), [#](all.md#t), "
+               "[#](none.md#x), [#](deep/one.md#none), [#](deep/one.md#entry).\n\n"
+               "<a id=\"t\"></a>\n\n| a |\n|---|\n| b |\n\n"
+               "[One](deep/one.md \"include\")\n");
+    file_write("deep/one.md",
+               "## Two\n\n<a id=\"fig\"></a>\n![P](p.png)\n\nSee [#](../all.md#t).\n\n"
+               "<a id=\"bibliography\"></a>\n\n- Z\n- <a id=\"entry\"></a>A\n");
+    struct read r = read_now("all.md");
+    assert_string_equal(
+        r.document->plain,
+        "# All\n\nBy Figure 1, page Two, Table 1, #, [#](deep/one.md#none), 1.\n\na\n\nb\n\n"
+        "## Two\n\nFigure 1: P\n\nSee Table 1.\n\nA \xe2\x86\x91\n\nZ\n\n");
+    assert_int_equal(r.document->lost_all, 1);
+    read_end(&r);
 }
 
 /* ---- in their places ---- */
@@ -337,7 +362,8 @@ static int end(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(files_stand_in_their_places),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(references_lead_to_other_files),
+                                       cmocka_unit_test(files_stand_in_their_places),
                                        cmocka_unit_test(includes_are_what_they_say),
                                        cmocka_unit_test(files_elsewhere_are_refused),
                                        cmocka_unit_test(circles_end),
