@@ -165,7 +165,7 @@ static enum machine_status sequencers_create(struct machine *m)
     m->sequencers = q;
     q->count = (int)m->settings.blocks;
     q->far = ranks_are_of(m);
-    if (q->far && ranks_machines_make(m))
+    if (q->far && ranks_machines_make(m, &q->far_near))
         return m->status;
     const bool apart = device_subs_count(m->device) == q->count;
     const int wanted = apart ? q->count : 1;

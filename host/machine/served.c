@@ -13,6 +13,8 @@
 #include "base/errors.h"
 #include "device/far.h"
 #include "machine.h"
+#include "ops/scan.h"
+#include "ops/sums_far.h"
 #include "plans/far.h"
 #include "ranks/ranks.h"
 
@@ -60,6 +62,7 @@ static void make(const struct ranks_command *c, const void *payload)
     } else {
         snprintf(made.device, sizeof made.device, "%s", the.m->device->name);
         made.memory_bytes = the.m->device->memory_bytes;
+        made.near = the.m->settings.near && the.m->device->is_pocl;
     }
     ranks_reply(&made, sizeof made);
 }
@@ -213,6 +216,34 @@ static void plan_command(const struct ranks_command *c, const void *payload)
         plans_forget_oldest(the.m);
 }
 
+/* ---- whole instructions ---- */
+
+/* Work of lines of this block. */
+static void each(const struct ranks_command *c, const void *payload)
+{
+    struct each_head head;
+    struct device_buffer *in[SEQUENCERS_ARRAYS];
+    const struct values *v = the.m->values;
+    if (c->payload < sizeof head || c->of[1] < 1 || c->of[1] >= (uint64_t)v->sets_count)
+        fail(c);
+    memcpy(&head, payload, sizeof head);
+    for (int i = 0; i < SEQUENCERS_ARRAYS; i++) {
+        in[i] = head.in[i] ? far_table_of(&the.arrays, head.in[i]) : NULL;
+        if (head.in[i] && !in[i])
+            fail(c);
+    }
+    const enum lines_kind kind = (enum lines_kind)c->of[0];
+    const struct vpset *s = &v->sets[c->of[1]];
+    const unsigned char *of = (const unsigned char *)payload + sizeof head;
+    const size_t count = c->payload - sizeof head;
+    struct device_buffer *out = kind == LINES_RANKS ? rank_told(the.m, s, in, of, count)
+                                                    : scan_told(the.m, s, in, kind, of, count);
+    if (!out)
+        fail(c);
+    device_flush(the.m);
+    far_table_put(&the.arrays, c->of[2], out);
+}
+
 /* ---- all ---- */
 
 static void perform(const struct ranks_command *c, const void *payload)
@@ -240,6 +271,11 @@ static void perform(const struct ranks_command *c, const void *payload)
         plan_take(c, payload);
     else if (c->what == RANKS_PREPARE || c->what == RANKS_RUN)
         plan_command(c, payload);
+    else if (c->what == RANKS_REDUCE) {
+        if (!sums_far_answer(the.m, &the.arrays, payload, c->payload))
+            fail(c);
+    } else if (c->what == RANKS_EACH)
+        each(c, payload);
     else if (c->what == RANKS_FORGET)
         forget(c->of[0]);
     else

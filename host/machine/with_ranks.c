@@ -53,10 +53,11 @@ bool ranks_are_of(const struct machine *m)
     return owner == m;
 }
 
-enum machine_status ranks_machines_make(struct machine *m)
+enum machine_status ranks_machines_make(struct machine *m, bool *near)
 {
     const struct ranks_command c = {
         RANKS_CREATE, sizeof device, {(uint64_t)m->values->processors_count}};
+    *near = m->settings.near && m->device->is_pocl;
     if (!ranks_are_ours())
         return MACHINE_OK;
     ranks_command_all(c, device);
@@ -64,6 +65,7 @@ enum machine_status ranks_machines_make(struct machine *m)
     for (int i = 1; i < ranks_count(); i++) {
         struct served_made made;
         ranks_reply_take(i, &made, sizeof made);
+        *near = *near && made.near;
         if (made.status && !m->status)
             machine_fail(m, (enum machine_status)made.status, "rank %d: %s", i, made.error);
         if (!made.status && made.memory_bytes < m->device->memory_bytes)

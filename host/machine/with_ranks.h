@@ -9,8 +9,8 @@ enum machine_status ranks_settings(struct machine *m, const struct machine_confi
 /* Whether it is the machine that has them: the first that there is. */
 bool ranks_are_of(const struct machine *m);
 /* Each other rank makes its machine; what one has in memory at most, all have. Or all destroy
- * theirs. */
-enum machine_status ranks_machines_make(struct machine *m);
+ * theirs. *near: all see their arrays, and can compute with them themselves. */
+enum machine_status ranks_machines_make(struct machine *m, bool *near);
 void ranks_machines_destroy(struct machine *m);
 /* The machine has gone. */
 void ranks_are_free(const struct machine *m);

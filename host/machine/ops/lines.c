@@ -3,6 +3,8 @@
  * else the device does. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/errors.h"
 #include "kernels.h"
@@ -228,24 +230,62 @@ enum machine_status lines_fill(struct machine *m, const struct lines *l,
     return scan_stage(m, l, &j, FILLS, run, runs, origin, NULL, NULL);
 }
 
+void lines_element_out(void *bytes)
+{
+    const struct element *e;
+    uintptr_t number;
+    memcpy(&e, bytes, sizeof e);
+    number = (uintptr_t)(e - lines_elements);
+    memcpy(bytes, &number, sizeof number);
+}
+
+bool lines_element_in(void *bytes)
+{
+    uintptr_t number;
+    memcpy(&number, bytes, sizeof number);
+    const struct element *e = &lines_elements[number <= LINES_FLOAT64 ? number : 0];
+    memcpy(bytes, &e, sizeof e);
+    return number <= LINES_FLOAT64;
+}
+
+/* Each block's, by the rank that has it. NULL: error set. */
+static struct device_buffer *worked_in_blocks(struct machine *m, struct machine_type type,
+                                              struct machine_value *const *values, int count,
+                                              const struct lines_job *job)
+{
+    const int set = m->values->set_current;
+    if (sequencers_are_near(m))
+        return sequencers_each(m, set, type, values, count, job->work, job->of, NULL);
+    void *copy = malloc(job->bytes);
+    NEEDS_MEMORY(copy);
+    memcpy(copy, job->of, job->bytes);
+    if (job->kind != LINES_RANKS)
+        lines_element_out(copy);
+    const struct sequencers_told told = {(int)job->kind, job->bytes, copy};
+    struct device_buffer *out =
+        sequencers_each(m, set, type, values, count, job->work, job->of, &told);
+    free(copy);
+    return out;
+}
+
 struct device_buffer *lines_worked(struct machine *m, struct machine_type type,
                                    struct machine_value *const *values, int count, bool across,
-                                   sequencers_work *work, const void *of)
+                                   const struct lines_job *job)
 {
     const int set = m->values->set_current;
     struct device_buffer *arrays[SEQUENCERS_ARRAYS];
     const bool in_blocks = sequencers_have(m, values, count);
-    if (in_blocks && !across && sequencers_are_near(m))
-        return sequencers_each(m, set, type, values, count, work, of);
+    if (in_blocks && !across)
+        return worked_in_blocks(m, type, values, count, job);
     if (in_blocks && sequencers_can_across(m, set))
-        return sequencers_across(m, set, type, values, count, work, of);
+        return sequencers_across(m, set, type, values, count, job->work, job->of);
     INVARIANT(count <= SEQUENCERS_ARRAYS);
     for (int i = 0; i < count; i++) {
         arrays[i] = values[i] ? values[i]->buffer : NULL;
         if (in_blocks && sequencers_whole(m, arrays[i]))
             return NULL;
     }
-    return work(m, &m->values->sets[set], arrays, of);
+    return job->work(m, &m->values->sets[set], arrays, job->of);
 }
 
 /* ---- the only line of a set in blocks ---- */

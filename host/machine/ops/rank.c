@@ -7,6 +7,7 @@
  * and words into digits; each digit is a pass (kernels/sort.cl).
  */
 #include <stdio.h>
+#include <string.h>
 
 #include "base/scalar.h"
 #include "kernels.h"
@@ -251,17 +252,28 @@ static struct device_buffer *ranks_of(struct machine *m, const struct vpset *s, 
 
 struct rank_work {
     int axis;
-    const struct words *words;
+    struct words words; /* without arrays */
 };
 
 static struct device_buffer *rank_work(struct machine *m, const struct vpset *s,
                                        struct device_buffer *const *in, const void *of)
 {
     const struct rank_work *r = of;
-    struct words w = *r->words;
+    struct words w = r->words;
     for (int i = 0; i < w.count; i++)
         w.arrays[i] = in[i];
     return ranks_of(m, s, r->axis, &w);
+}
+
+struct device_buffer *rank_told(struct machine *m, const struct vpset *s,
+                                struct device_buffer *const *in, const void *bytes,
+                                size_t count)
+{
+    struct rank_work work;
+    if (count != sizeof work)
+        return NULL;
+    memcpy(&work, bytes, count);
+    return work.words.count <= WORDS_MAX ? rank_work(m, s, in, &work) : NULL;
 }
 
 struct machine_value *machine_rank(struct machine *m, int axis, bool downward, bool is_signed,
@@ -277,8 +289,9 @@ struct machine_value *machine_rank(struct machine *m, int axis, bool downward, b
         !words_of(m, &how, key_of(m, value, downward, is_signed), &w) ||
         !materialise_all_in_blocks(m, m->values->set_current, w.values, w.count))
         return NULL;
-    const struct rank_work work = {axis, &w};
+    const struct rank_work work = {axis, w};
+    const struct lines_job job = {LINES_RANKS, rank_work, &work, sizeof work};
     struct device_buffer *ranks =
-        lines_worked(m, MACHINE_UINT(32), w.values, w.count, axis == 0, rank_work, &work);
+        lines_worked(m, MACHINE_UINT(32), w.values, w.count, axis == 0, &job);
     return ranks ? graph_buffer_node(m, MACHINE_UINT(32), m->values->set_current, ranks) : NULL;
 }

@@ -16,6 +16,8 @@
 #include "memory/call_set.h"
 #include "memory/memory.h"
 #include "ops/near.h"
+#include "ops/sums_far.h"
+#include "ranks/ranks.h"
 #include "run/evaluate.h"
 #include "run/materialise.h"
 #include "sequencers/sequencers.h"
@@ -171,15 +173,15 @@ static bool runs_are_whole(struct machine *m, int set)
 }
 
 /* Makes ready what is reduced: the arrays of both (context NULL: there is none) in blocks, or
- * both in one piece. False: error set. */
+ * both in one piece. far_too: other ranks' blocks may be, too. False: error set. */
 static bool arrays_ready(struct machine *m, int set, struct machine_value *in,
-                         struct machine_value *context, bool *in_blocks)
+                         struct machine_value *context, bool *in_blocks, bool far_too)
 {
     struct machine_value *const values[2] = {in, context};
     *in_blocks = false;
     if (!sequencers_have(m, values, 2))
         return true;
-    *in_blocks = sequencers_are_near(m) && runs_are_whole(m, set);
+    *in_blocks = (sequencers_are_near(m) || far_too) && runs_are_whole(m, set);
     for (int i = 0; i < 2; i++)
         if (values[i] &&
             (*in_blocks ? sequencers_divide(m, values[i]->buffer, set, values[i]->type, 0)
@@ -188,17 +190,37 @@ static bool arrays_ready(struct machine *m, int set, struct machine_value *in,
     return true;
 }
 
-/* near_sums() of all blocks, one after the other. */
+/* What is reduced of a block. */
+static struct near_sum block_sum(const struct near_sum *what, int block)
+{
+    struct near_sum w = *what;
+    w.numbers = what->numbers->blocks->of[block];
+    w.context = what->context ? what->context->blocks->of[block] : NULL;
+    return w;
+}
+
+/* near_sums() of all blocks, one after the other; those of other ranks have been asked for, and
+ * are taken in their turn. */
 static bool blocks_sums(struct machine *m, int set, const struct near_sum *what,
                         struct machine_scalar *sums)
 {
+    const bool far = m->sequencers->far;
     bool good = true;
-    for (int i = 0; i < m->sequencers->count && good; i++) {
+    for (int i = 1; far && i < m->sequencers->count; i++) {
         const struct vpset own = own_rows(m, set, i);
-        struct near_sum w = *what;
-        w.numbers = what->numbers->blocks->of[i];
-        w.context = what->context ? what->context->blocks->of[i] : NULL;
-        good = !own.count || near_sums(m, &own, &w, REDUCE_RUN, sums);
+        const struct near_sum w = block_sum(what, i);
+        if (own.count)
+            sums_far_ask(i, &own, &w, REDUCE_RUN, runs_of(&own));
+    }
+    if (far)
+        ranks_flush();
+    for (int i = 0; i < m->sequencers->count; i++) {
+        const struct vpset own = own_rows(m, set, i);
+        const struct near_sum w = block_sum(what, i);
+        if (own.count && far && i)
+            sums_far_take(i, sums, runs_of(&own));
+        else if (own.count && good)
+            good = near_sums(m, &own, &w, REDUCE_RUN, sums);
         sums += runs_of(&own);
     }
     return good;
@@ -228,7 +250,8 @@ static bool reduce_near(struct machine *m, int set, struct machine_value *v,
     w.extends = in != v && v->op == NODE_SIGN_EXTEND;
     if (!in->buffer || (in->type.kind == MACHINE_FLOAT) != w.is_float ||
         (!all && !context->buffer) ||
-        (m->sequencers && !arrays_ready(m, set, in, all ? NULL : context, &in_blocks)))
+        (m->sequencers &&
+         !arrays_ready(m, set, in, all ? NULL : context, &in_blocks, m->sequencers->far_near)))
         return false;
     w.plain = in == v || (info->op == REDUCE_ADD && !w.extends);
     w.width = in->type.width;
@@ -304,7 +327,7 @@ static enum machine_status reduce_buffer(struct machine *m, int set, struct mach
 {
     const struct vpset *s = &m->values->sets[set];
     bool in_blocks;
-    if (!arrays_ready(m, set, v, NULL, &in_blocks))
+    if (!arrays_ready(m, set, v, NULL, &in_blocks, false))
         return m->status;
     const size_t count = runs_of(s);
     struct machine_scalar *sums = malloc(count * sizeof *sums), *at = sums;

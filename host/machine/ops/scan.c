@@ -10,6 +10,8 @@
  * block's arrays are scanned by themselves, ghosts too. Along the one that is cut, columns of
  * all blocks are brought together, scanned, and put back; where there is one axis, what comes
  * before each block is found first (lines_chain()). */
+#include <string.h>
+
 #include "ops/scan.h"
 
 #include "base/errors.h"
@@ -282,7 +284,8 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
     struct device_buffer *out =
         sequencers_have(m, in, 3) && lines_can_chain(m, &w.scan, how->downward)
             ? lines_chain(m, type_of(f.element), &w.scan, how->downward, in)
-            : lines_worked(m, type_of(f.element), in, 3, how->axis == 0, scan_work, &w);
+            : lines_worked(m, type_of(f.element), in, 3, how->axis == 0,
+                           &(struct lines_job){LINES_SCANS, scan_work, &w, sizeof w});
     if (!out)
         return NULL;
     struct machine_value *v = shown(m, &f, m->values->set_current, out);
@@ -352,16 +355,17 @@ static struct device_buffer *spread_all(struct machine *m, struct spread_work *w
     const struct element *e = w->scan.element;
     struct machine_value *in[2] = {value, context};
     const uint32_t axes = w->axes;
-    if (axes == 1 || !(axes & 1) || !sequencers_have(m, in, 2) || !sequencers_are_near(m))
-        return lines_worked(m, type_of(e), in, 2, axes & 1, spread_work, w);
+    const struct lines_job job = {LINES_SPREADS, spread_work, w, sizeof *w};
+    if (axes == 1 || !(axes & 1) || !sequencers_have(m, in, 2))
+        return lines_worked(m, type_of(e), in, 2, axes & 1, &job);
     w->axes = axes & ~UINT32_C(1);
-    struct device_buffer *out = lines_worked(m, type_of(e), in, 2, false, spread_work, w);
+    struct device_buffer *out = lines_worked(m, type_of(e), in, 2, false, &job);
     if (!out)
         return NULL;
     w->axes = 1;
     in[0] = graph_buffer_node(m, type_of(e), m->values->set_current, out);
     in[1] = NULL;
-    return lines_worked(m, type_of(e), in, 2, true, spread_work, w);
+    return lines_worked(m, type_of(e), in, 2, true, &job);
 }
 
 struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op, uint32_t axes,
@@ -422,6 +426,28 @@ static struct device_buffer *fill_work(struct machine *m, const struct vpset *s,
     return out;
 }
 
+struct device_buffer *scan_told(struct machine *m, const struct vpset *s,
+                                struct device_buffer *const *in, enum lines_kind kind,
+                                const void *bytes, size_t count)
+{
+    struct scan_work scan;
+    struct spread_work spread;
+    struct fill_work fill;
+    if (kind == LINES_SCANS && count == sizeof scan) {
+        memcpy(&scan, bytes, count);
+        return lines_element_in(&scan) ? scan_work(m, s, in, &scan) : NULL;
+    }
+    if (kind == LINES_SPREADS && count == sizeof spread) {
+        memcpy(&spread, bytes, count);
+        return lines_element_in(&spread) ? spread_work(m, s, in, &spread) : NULL;
+    }
+    if (kind == LINES_FILLS && count == sizeof fill) {
+        memcpy(&fill, bytes, count);
+        return lines_element_in(&fill) ? fill_work(m, s, in, &fill) : NULL;
+    }
+    return NULL;
+}
+
 /* With elements of the value itself: of that processor (`one`), or of those at its place on
  * the axis. */
 static struct machine_value *spread_copy(struct machine *m, int axis, bool one, uint64_t index,
@@ -434,7 +460,8 @@ static struct machine_value *spread_copy(struct machine *m, int axis, bool one, 
         return NULL;
     const struct vpset *s = &m->values->sets[set];
     struct fill_work w = {.element = f.element, .axis = axis, .one = one};
-    if (m->sequencers && !sequencers_are_near(m) && sequencers_whole(m, v->buffer))
+    if (m->sequencers && !sequencers_are_near(m) && (one || axis == 0) &&
+        sequencers_whole(m, v->buffer))
         return NULL;
     in[0] = v;
     if (sequencers_has(m, v) && (one || axis == 0)) {
@@ -448,8 +475,9 @@ static struct machine_value *spread_copy(struct machine *m, int axis, bool one, 
         w.place = geometry_place(s, index);
     }
     struct device_buffer *out =
-        w.from ? sequencers_each(m, set, type_of(f.element), in, 1, fill_work, &w)
-               : lines_worked(m, type_of(f.element), &v, 1, false, fill_work, &w);
+        w.from ? sequencers_each(m, set, type_of(f.element), in, 1, fill_work, &w, NULL)
+               : lines_worked(m, type_of(f.element), &v, 1, false,
+                              &(struct lines_job){LINES_FILLS, fill_work, &w, sizeof w});
     if (!out)
         return NULL;
     device_flush(m);

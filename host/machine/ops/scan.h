@@ -59,11 +59,31 @@ enum machine_status lines_scan(struct machine *m, const struct lines *l,
 enum machine_status lines_fill(struct machine *m, const struct lines *l,
                                const struct element *e, struct device_buffer *from,
                                struct origin origin, struct device_buffer *out);
+/* Work of lines, which other ranks know, too. `of` begins with the address of an element, but
+ * for ranks. */
+enum lines_kind { LINES_SCANS, LINES_SPREADS, LINES_FILLS, LINES_RANKS };
+struct lines_job {
+    enum lines_kind kind;
+    sequencers_work *work;
+    const void *of;
+    uint32_t bytes;
+};
 /* Work on arrays in one piece, or in blocks, where some of the values' arrays are; `across`: it
  * looks along the first axis of the current set. NULL: error set. */
 struct device_buffer *lines_worked(struct machine *m, struct machine_type type,
                                    struct machine_value *const *values, int count, bool across,
-                                   sequencers_work *work, const void *of);
+                                   const struct lines_job *job);
+/* The same job on a rank that was told of it. NULL: it is none of these, or an error is set. */
+struct device_buffer *scan_told(struct machine *m, const struct vpset *s,
+                                struct device_buffer *const *in, enum lines_kind kind,
+                                const void *bytes, size_t count);
+struct device_buffer *rank_told(struct machine *m, const struct vpset *s,
+                                struct device_buffer *const *in, const void *bytes,
+                                size_t count);
+/* Puts an element's number in the place of its address, and the other way round. False: there
+ * is none of that number. */
+void lines_element_out(void *bytes);
+bool lines_element_in(void *bytes);
 /* A scan of the only line of the current set, in blocks: of elements, the context and bits,
  * some of whose arrays are in blocks. lines_can_chain(): whether it can be done so. NULL: error
  * set. */

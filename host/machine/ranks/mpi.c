@@ -3,7 +3,6 @@
 
 #include <dlfcn.h>
 #include <library.h>
-#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +39,8 @@ static const struct library_function functions[] = {
     LIBRARY_FUNCTION(mpi, ompi_mpi_byte)};
 enum { ALL = sizeof functions / sizeof *functions, OF_BOTH = ALL - 2 };
 
-static int rank, size = 1, patience;
+static int rank, size = 1;
+static bool is_crowded;
 static uintptr_t world, byte;
 static void *no_status;
 
@@ -127,22 +127,19 @@ void mpi_take(int from, enum mpi_tag tag, void *bytes, size_t count, struct mpi_
 
 void mpi_is_crowded(void)
 {
-    patience = -1;
+    is_crowded = true;
 }
 
-/* Ever longer: first a look at once, then after others had the processor, then after a nap. The
- * naps of who waits for long are short beside what it waited for. */
+/* Ever longer: first a look at once, then after a nap. Not by sched_yield(): where other
+ * programs are busy, they would have the processor for their whole share of time, and who wakes
+ * up comes first. The naps of who waits for long are short beside what it waited for. */
 static void pause_after(int looks)
 {
-    enum { AT_ONCE = 2000, IN_TURN = 200, NAP_NS = 20000, NAP_MOST_NS = 500000 };
-    const int at_once = patience < 0 ? 0 : AT_ONCE;
+    enum { AT_ONCE = 2000, NAP_NS = 10000, NAP_MOST_NS = 500000 };
+    const int at_once = is_crowded ? 0 : AT_ONCE;
     if (looks < at_once)
         return;
-    if (looks < at_once + IN_TURN) {
-        sched_yield();
-        return;
-    }
-    const long naps = looks - at_once - IN_TURN, ns = NAP_NS + NAP_NS * (naps / 16);
+    const long ns = NAP_NS + NAP_NS * ((looks - at_once) / 16);
     nanosleep(&(struct timespec){0, ns < NAP_MOST_NS ? ns : NAP_MOST_NS}, NULL);
 }
 

@@ -67,8 +67,8 @@ enum ranks_command_of {
     RANKS_PREPARE, /* its plan: id, use */
     RANKS_RUN,     /* id; payload: ids of arrays, numbers, ids of results */
     RANKS_FORGET,  /* it: id */
-    RANKS_REDUCE,  /* see ops/reduce_far.c: a reply */
-    RANKS_EACH,    /* see ops/each_far.c */
+    RANKS_REDUCE,  /* payload: ops/sums_far.c; a reply */
+    RANKS_EACH, /* work of a block: kind, VP set, the result; payload: arrays, and the work */
     RANKS_END,
     RANKS_COMMANDS
 };

@@ -43,8 +43,9 @@ struct sequencers {
     struct machine *machines[BLOCKS_MOST];
     int machines_count;
     /* Block i is in the memory of rank i, which computes it. Here are the front end and block
-     * 0, with one machine. Whole instructions look at arrays in one piece. */
-    bool far;
+     * 0, with one machine. far_near: all see their blocks' arrays, and compute with them
+     * themselves, as byte code does. */
+    bool far, far_near;
     struct cut *cuts; /* by set */
     int cuts_count;
     /* Plans, and whole instructions, run in blocks, each by all; arrays put into blocks, and
@@ -121,7 +122,7 @@ enum machine_status sequencers_write(struct machine *m, const struct device_buff
 /* ---- each.c, across.c: the same work for each block; for some columns of all ---- */
 
 /* An array that follows from others of the same set, one of them for each value (NULL: that one
- * is left out). NULL: error set. */
+ * is left out). `of` says what work it is; NULL from it: error set. */
 typedef struct device_buffer *sequencers_work(struct machine *m, const struct vpset *s,
                                               struct device_buffer *const *in, const void *of);
 /* Makes the values' arrays (NULL: there is none) ones in blocks, too. How many ghosts are valid
@@ -144,11 +145,23 @@ static inline bool sequencers_has(const struct machine *m, const struct machine_
 {
     return m->sequencers && !v->buffer->memory;
 }
+/* What ranks are told of the work: its kind, and what `of` has, where it has no addresses of
+ * this process. */
+struct sequencers_told {
+    int kind;
+    uint32_t bytes;
+    const void *of;
+};
 /* Makes an array of that type in blocks, each by `work` of the block's arrays. The work looks
- * at no other plane. NULL: error set. */
+ * at no other plane. told: where ranks have blocks. NULL: error set. */
 struct device_buffer *sequencers_each(struct machine *m, int set, struct machine_type type,
                                       struct machine_value *const *values, int count,
-                                      sequencers_work *work, const void *of);
+                                      sequencers_work *work, const void *of,
+                                      const struct sequencers_told *told);
+/* Of what a rank was told: its arrays' numbers, of which some are 0, and the work. */
+struct each_head {
+    uint64_t in[SEQUENCERS_ARRAYS];
+};
 /* The same of work that looks along the first axis, and at no other column: columns of all
  * blocks together are its set. Only where sequencers_can_across(). */
 bool sequencers_can_across(const struct machine *m, int set);
