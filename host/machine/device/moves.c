@@ -46,16 +46,17 @@ static enum machine_status part_out(struct machine *m, const struct device_buffe
 {
     const void *from = in_place(m, b) ? (const char *)b->host + at : NULL;
     struct move *it = move_add();
+    enum machine_status status = MACHINE_OK;
     if (!from) {
         it->copy = malloc(bytes);
         NEEDS_MEMORY(it->copy);
-        if (device_read(m, b, at, it->copy, bytes, "reading a block"))
-            memset(it->copy, 0,
-                   bytes); /* the other rank waits for something; the error stays */
+        status = device_read(m, b, at, it->copy, bytes, "reading a block");
+        if (status)
+            memset(it->copy, 0, bytes); /* the other rank waits for something */
         from = it->copy;
     }
     mpi_send(rank, MPI_TAG_PLANES, from, bytes, &it->request);
-    return m->status;
+    return status;
 }
 
 static enum machine_status part_in(struct machine *m, const struct device_buffer *b, size_t at,
@@ -122,7 +123,7 @@ enum machine_status device_move_far(struct machine *m, const struct device_buffe
 
 enum machine_status device_moves_end(struct machine *m)
 {
-    enum machine_status status = m->status;
+    enum machine_status status = MACHINE_OK;
     if (ranks_mine() == 0 && ranks_are_ours())
         ranks_flush();
     for (int i = 0; i < moves.count; i++) {
