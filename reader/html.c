@@ -42,6 +42,13 @@ static const char style_begin[] =
     ".typed{white-space:pre-wrap}\n"
     ".ink{display:inline-block;position:relative;width:0;height:0;vertical-align:text-top}\n"
     ".ink svg{position:absolute;width:1rem;height:1rem;overflow:visible;pointer-events:none}\n"
+    ".around{position:relative;shape-margin:.5em}\n"
+    ".around.l{float:left;clear:left}\n"
+    ".around.r{float:right;clear:right}\n"
+    ".around svg{position:absolute;width:1rem;height:1rem;overflow:visible;"
+    "pointer-events:none;stroke-linecap:round;stroke-linejoin:round}\n"
+    ".around.r svg{margin-left:100%}\n"
+    ":has(.around)~:is(h1,h2,pre,table,hr,figure,.math){clear:both}\n"
     ".alone{display:block;stroke-linecap:round;stroke-linejoin:round}\n"
     ".ink{stroke-linecap:round;stroke-linejoin:round}\n"
     "@media(min-width:64rem){aside.remark,aside.margin{float:right;clear:right;width:11rem;"
@@ -226,6 +233,7 @@ static void simple_put(struct html *h, const struct reader_block *block, const c
     name_put(h, block);
     align_put(h, block);
     fputs(">", h->f);
+    html_around_put(h, block);
     marker_put(h, block);
     whole_put(h, block);
     fprintf(h->f, "</%s>\n", tag);
@@ -439,8 +447,11 @@ enum reader_status reader_html_write(const struct reader_document *document,
     h.status = h.noted && h.called ? html_remarks_begin(&h)
                                    : reader_fail(READER_NO_MEMORY, "no memory for a document");
     if (h.status == READER_OK)
+        h.status = html_around_begin(&h);
+    if (h.status == READER_OK)
         document_put(&h);
     html_picture_finish(&h);
+    free(h.obstacles);
     free(h.events);
     free(h.waiting);
     free(h.noted);

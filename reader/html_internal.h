@@ -4,6 +4,7 @@
 #ifndef LUTETIA_READER_HTML_INTERNAL_H
 #define LUTETIA_READER_HTML_INTERNAL_H
 
+#include "reader_around.h"
 #include "reader_html.h"
 #include "reader_internal.h"
 
@@ -29,6 +30,8 @@ struct html {
     int marks, typed;          /* that are open */
     int *waiting;              /* typed notes whose asides come behind this block */
     int waiting_count, waiting_capacity;
+    struct reader_obstacle *obstacles; /* ink that text flows around */
+    int obstacles_count;
     /* notes of the document */
     bool *noted; /* those that stand in the margin already */
     bool *called;
@@ -64,6 +67,14 @@ int html_event_next(const struct html *h, const struct reader_block *block, int 
 void html_asides_put(struct html *h);
 /* What hangs on words that are gone. */
 void html_orphans_put(struct html *h);
+
+/* A stroke's drawing, from the place of what it is in. */
+void html_ink_put(struct html *h, const struct reader_remark *r);
+
+/* html_around.c: ink that text flows around. Errors: NO_MEMORY. */
+enum reader_status html_around_begin(struct html *h);
+/* That of a paragraph, before its first letter. */
+void html_around_put(struct html *h, const struct reader_block *block);
 
 /* html_picture.c */
 /* A formula, dollars and all; false: it stands as it is written. */

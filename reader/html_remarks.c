@@ -38,7 +38,8 @@ enum reader_status html_remarks_begin(struct html *h)
         if (r->orphan || !reader_remark_seen(r))
             continue;
         if (r->kind == READER_REMARK_INK) {
-            event_add(h, r->begin, HTML_INK, i);
+            if (reader_around_block(h->document, r) < 0) /* else it stands beside lines */
+                event_add(h, r->begin, HTML_INK, i);
         } else {
             const bool is_typed = r->kind == READER_REMARK_TYPED;
             event_add(h, r->begin, is_typed ? HTML_TYPED : HTML_MARK, i);
@@ -83,15 +84,21 @@ static void stroke_put(struct html *h, const struct reader_remark *r)
     fputs("</g>", h->f);
 }
 
-static void ink_put(struct html *h, int remark)
+void html_ink_put(struct html *h, const struct reader_remark *r)
 {
-    const struct reader_remark *r = remark_of(h, remark);
     fprintf(h->f,
-            "<span class=\"ink\"><svg viewBox=\"0 0 1 1\" role=\"img\" aria-label=\"ink\" "
+            "<svg viewBox=\"0 0 1 1\" role=\"img\" aria-label=\"ink\" "
             "style=\"left:%.3frem;top:%.3frem\">",
             r->x, r->y);
     stroke_put(h, r);
-    fputs("</svg></span>", h->f);
+    fputs("</svg>", h->f);
+}
+
+static void ink_put(struct html *h, int remark)
+{
+    fputs("<span class=\"ink\">", h->f);
+    html_ink_put(h, remark_of(h, remark));
+    fputs("</span>", h->f);
 }
 
 /* ---- at their words ---- */

@@ -47,6 +47,25 @@ static void stage_read(const char *info, struct reader_block *block)
     }
 }
 
+/* Where text flows around its stage: of its info's words, those that say so. */
+static void stage_beside(const char *info, struct reader_block *block)
+{
+    char words[64] = "";
+    size_t used = 0;
+    for (const char *at = info + strcspn(info, " \t"); *at;) {
+        at += strspn(at, " \t");
+        const size_t bytes = strcspn(at, " \t");
+        const bool says = (bytes == 4 && strncmp(at, "left", 4) == 0) ||
+                          (bytes == 5 && strncmp(at, "right", 5) == 0) ||
+                          (bytes == 3 && at[2] == '%');
+        if (says && used + bytes + 2 < sizeof words)
+            used +=
+                (size_t)snprintf(words + used, sizeof words - used, "%.*s ", (int)bytes, at);
+        at += bytes;
+    }
+    reader_beside_read(words, &block->beside);
+}
+
 static void code_read(struct walk *w, cmark_node *node)
 {
     const char *info = cmark.node_get_fence_info(node);
@@ -58,8 +77,10 @@ static void code_read(struct walk *w, cmark_node *node)
     walk_block_open(w, math ? READER_MATH : live ? READER_LIVE : READER_CODE_BLOCK, node);
     w->b.block.info = walk_copy(w, info);
     w->b.block.stage_program = live && !lua;
-    if (live)
+    if (live) {
         stage_read(info, &w->b.block);
+        stage_beside(info, &w->b.block);
+    }
     reader_code_add(&w->b, cmark.node_get_literal(node), math ? READER_FORMULA : READER_CODE);
     if (w->b.status == READER_OK)
         walk_line_end_drop(&w->b.block);

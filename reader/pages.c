@@ -240,10 +240,34 @@ static enum reader_status picture_add(struct reader_pages *p, const struct reade
     return status;
 }
 
+/* Its stage waits for what comes next: its own text, where that has room beside it. */
+static enum reader_status live_beside(struct reader_pages *p, const struct reader_block *block)
+{
+    const struct reader_block *waiting[PAGES_WAITING_MAX];
+    const int count = p->waiting_count;
+    double stage;
+    bool fits;
+    pages_beside_host(&p->setup, p->document, (int)(block - p->document->blocks), &stage);
+    enum reader_status status = pages_code_fits(
+        p, block, pages_column(p) - fmin(stage, block->stage_width) - 2 * p->setup.size_px,
+        &fits);
+    p->below = true;
+    if (status != READER_OK || (fits && count == 1))
+        return status == READER_OK ? pages_code_add(p, block) : status;
+    memcpy(waiting, p->waiting, sizeof waiting);
+    p->waiting_count = 0;
+    status = pages_code_add(p, block);
+    memcpy(p->waiting, waiting, sizeof waiting);
+    p->waiting_count = count;
+    return status;
+}
+
 static enum reader_status block_add(struct reader_pages *p, const struct reader_block *block)
 {
     bool waits;
     enum reader_status status = pages_beside_wait(p, block, &waits);
+    if (status == READER_OK && waits && block->kind == READER_LIVE)
+        return live_beside(p, block);
     if (status != READER_OK || waits)
         return status;
     p->below =
@@ -294,7 +318,9 @@ int pages_wide_of(const struct reader_pages_setup *setup,
                    ? -1
                    : READER_WIDE_FIGURES;
     case READER_LIVE:
-        return READER_WIDE_DEMONSTRATIONS;
+        return pages_beside_host(setup, document, number, &width) >= 0
+                   ? -1
+                   : READER_WIDE_DEMONSTRATIONS;
     case READER_ROW:
         return READER_WIDE_TABLES;
     case READER_PARAGRAPH:
@@ -313,8 +339,12 @@ static enum reader_status waiting_end(struct reader_pages *p)
     enum reader_status status = READER_OK;
     const int count = p->waiting_count;
     p->waiting_count = 0;
-    for (int i = 0; i < count && status == READER_OK; i++)
-        status = picture_add(p, p->waiting[i]);
+    for (int i = 0; i < count && status == READER_OK; i++) {
+        const struct reader_block *block = p->waiting[i];
+        const struct page_manner manner = pages_manner(p, CONTEXT_TABLE);
+        status = block->kind == READER_LIVE ? pages_stage_add(p, block, &manner)
+                                            : picture_add(p, block);
+    }
     return status;
 }
 
@@ -398,6 +428,24 @@ static enum reader_status grid_set(struct reader_pages *p, double frame_px)
                                                                          : pages_failed();
 }
 
+/* Pages whose columns are those of a grid, with their notes. */
+static enum reader_status page_grid_set(struct reader_pages *p, double frame_px)
+{
+    const struct reader_pages_setup *s = &p->setup;
+    struct page_template t = {.width_px = s->width_px, .height_px = s->height_px};
+    if (!(frame_px >= 2 * s->size_px))
+        return reader_fail(READER_BAD_ARGUMENT,
+                           "columns %.0f pixels high are too small for letters of %g", frame_px,
+                           s->size_px);
+    for (int i = 0; i < s->grid.texts; i++) {
+        struct page_frame frame = frame_of(&s->grid.text[i], frame_px);
+        frame.y = s->margin_px;
+        frame.foot_gap_px = 0.7 * s->size_px;
+        t.frames[t.frames_count++] = frame;
+    }
+    return page_templates_set(p->text, &t, 1) == FONT_OK ? READER_OK : pages_failed();
+}
+
 enum reader_status pages_template_set(struct reader_pages *p, double frame_px)
 {
     p->wide = -1;
@@ -406,6 +454,8 @@ enum reader_status pages_template_set(struct reader_pages *p, double frame_px)
         return grid_set(p, frame_px);
     const struct reader_pages_setup *s = &p->setup;
     const bool scrolled = p->made != NULL;
+    if (!scrolled && s->grid.texts)
+        return page_grid_set(p, frame_px);
     const double width = s->columns >= 1 ? pages_column(p) : 0, height = frame_px;
     struct page_template t = {.width_px = s->width_px,
                               .height_px = scrolled ? frame_px : s->height_px};

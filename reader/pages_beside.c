@@ -30,7 +30,15 @@ static double column_of(const struct reader_pages_setup *s)
 static struct reader_beside beside_of(const struct reader_pages_setup *s,
                                       const struct reader_block *b)
 {
-    return b->beside.side == READER_SIDE_USUAL ? s->beside : b->beside;
+    return b->beside.side == READER_SIDE_USUAL && b->kind == READER_PICTURE ? s->beside
+                                                                            : b->beside;
+}
+
+/* A picture, or a stage where somebody draws it. */
+static bool is_figure(const struct reader_pages_setup *s, const struct reader_block *b)
+{
+    return (b->kind == READER_PICTURE && b->target) ||
+           (b->kind == READER_LIVE && b->stage_width && s->stage_strip_px > 0);
 }
 
 /* How wide it may be; 0: it is no such figure, or a line beside it has no room. */
@@ -40,7 +48,7 @@ static double figure_px(const struct reader_pages_setup *s, const struct reader_
     const double column = column_of(s), em = s->size_px,
                  width =
                      floor(column * (beside.percent ? beside.percent : usual_percent) / 100);
-    if (b->kind != READER_PICTURE || b->items || b->quotes || b->marker || !b->target ||
+    if (!is_figure(s, b) || b->items || b->quotes || b->marker ||
         (beside.side != READER_SIDE_LEFT && beside.side != READER_SIDE_RIGHT) ||
         column - width < (gap_em + least_em) * em || width < 2 * em)
         return 0;
@@ -77,6 +85,9 @@ static double figure_most(const struct reader_pages_setup *s, const struct reade
                           double width_px)
 {
     const double letter_em = 0.6, part = 0.6, line = s->leading * s->size_px;
+    if (b->kind == READER_LIVE)
+        return s->stage_strip_px + 2 * line +
+               b->stage_height * fmin(1, width_px / b->stage_width);
     return part * fmax(1, s->height_px) + 3 * line +
            line * ceil(b->bytes * letter_em * s->size_px / fmin(width_px, 8 * s->size_px));
 }
@@ -170,15 +181,56 @@ enum reader_status pages_beside_wait(struct reader_pages *p, const struct reader
     const struct pictured *picture;
     double width;
     *waits = false;
-    if (block->kind != READER_PICTURE || block < d->blocks ||
+    if ((block->kind != READER_PICTURE && block->kind != READER_LIVE) || block < d->blocks ||
         block >= d->blocks + d->blocks_count || p->waiting_count == PAGES_WAITING_MAX ||
         pages_beside_host(&p->setup, d, (int)(block - d->blocks), &width) < 0)
         return READER_OK;
     enum reader_status status =
-        pages_pictured(p, block->source, block->target, block->asked, width, &picture);
-    *waits = status == READER_OK && picture;
+        block->kind == READER_LIVE
+            ? READER_OK
+            : pages_pictured(p, block->source, block->target, block->asked, width, &picture);
+    *waits = status == READER_OK && (block->kind == READER_LIVE || picture);
     if (*waits)
         p->waiting[p->waiting_count++] = block;
+    return status;
+}
+
+static void figure_kept(struct reader_pages *p)
+{
+    struct made_passage *made = p->made ? p->made : &p->kept;
+    if (!made->count)
+        return;
+    made->paragraphs[made->count - 1].beside = true;
+    made->paragraphs[made->count - 1].figure = true;
+}
+
+/* A stage: its room beside lines is a picture's. */
+static enum reader_status stage_put(struct reader_pages *p, int id,
+                                    const struct reader_block *block)
+{
+    struct page_manner manner = pages_manner(p, CONTEXT_TABLE);
+    struct page_beside to = {.side = block->beside.side == READER_SIDE_LEFT ? PAGE_SIDE_LEFT
+                                                                            : PAGE_SIDE_RIGHT,
+                             .gap_px = gap_em * p->setup.size_px,
+                             .least_px = least_em * p->setup.size_px};
+    struct paragraph_text none = {0};
+    double most;
+    int style, plain, figure;
+    pages_beside_host(&p->setup, p->document, (int)(block - p->document->blocks), &most);
+    enum reader_status status = pages_style(p, CONTEXT_TABLE, 0, &plain);
+    if (status == READER_OK)
+        status = pages_stage_style(p, block, most, &style, &to.width_px);
+    if (status != READER_OK)
+        return status;
+    manner.indent_px = 0;
+    manner.before_px = manner.after_px = 0.3 * p->setup.size_px;
+    if (page_beside_add(p->text, id, &to, "-", 1, plain, &manner, &figure) != FONT_OK ||
+        page_paragraph_style(p->text, figure, 0, 1, style) != FONT_OK)
+        return pages_failed();
+    p->insets++;
+    status = pages_made_keep(p, figure, -1, &none);
+    if (status == READER_OK && (p->made || p->kept.count))
+        figure_kept(p);
     return status;
 }
 
@@ -218,15 +270,6 @@ static int rows_make(const struct pictured *picture, struct reader_beside beside
         else if (rows[i].to_px > rows[i].from_px)
             rows[i].to_px = box_px;
     return count;
-}
-
-static void figure_kept(struct reader_pages *p)
-{
-    struct made_passage *made = p->made ? p->made : &p->kept;
-    if (!made->count)
-        return;
-    made->paragraphs[made->count - 1].beside = true;
-    made->paragraphs[made->count - 1].figure = true;
 }
 
 static enum reader_status caption_put(struct reader_pages *p, int id,
@@ -308,7 +351,8 @@ enum reader_status pages_besides_put(struct reader_pages *p, int id)
     p->waiting_count = 0; /* notes of captions are paragraphs, too */
     for (int i = 0; i < count && status == READER_OK; i++) {
         p->block = (int)(p->waiting[i] - p->document->blocks);
-        status = figure_put(p, id, p->waiting[i]);
+        status =
+            (p->waiting[i]->kind == READER_LIVE ? stage_put : figure_put)(p, id, p->waiting[i]);
     }
     p->block = block;
     return status;

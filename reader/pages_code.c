@@ -89,6 +89,24 @@ static enum reader_status steps_find(struct reader_pages *p, const struct reader
     return status;
 }
 
+enum reader_status pages_code_fits(struct reader_pages *p, const struct reader_block *block,
+                                   double most_px, bool *fits)
+{
+    double letter;
+    int columns = 0;
+    enum reader_status status = line_width(p, block, "M", 1, &letter);
+    for (int at = 0; at < block->bytes;) {
+        const char *line = block->text + at,
+                   *end = memchr(line, '\n', (size_t)(block->bytes - at));
+        const int bytes = end ? (int)(end - line) : block->bytes - at,
+                  own = columns_of(line, bytes);
+        columns = own > columns ? own : columns;
+        at += bytes + 1;
+    }
+    *fits = status == READER_OK && columns * letter + p->setup.size_px <= most_px;
+    return status;
+}
+
 /* In pieces, so that no paragraph is too long for who sets it. */
 enum reader_status pages_code_add(struct reader_pages *p, const struct reader_block *block)
 {

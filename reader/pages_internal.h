@@ -231,6 +231,8 @@ enum reader_status pages_picture_add(struct reader_pages *p, const struct reader
 
 /* pages_code.c: lines of code, no wider than their column where they need not be much smaller
  * for that. */
+enum reader_status pages_code_fits(struct reader_pages *p, const struct reader_block *block,
+                                   double most_px, bool *fits); /* as large as it is */
 enum reader_status pages_code_add(struct reader_pages *p, const struct reader_block *block);
 
 /* pages_pieces.c: a text as paragraphs, parted where pictures in it are high. put: may take
@@ -246,6 +248,8 @@ enum reader_status pages_pieces(struct reader_pages *p, const struct paragraph_t
                                 void *user);
 
 /* pages_stage.c: room for the picture of a script that lives, and for the strip under it. */
+enum reader_status pages_stage_style(struct reader_pages *p, const struct reader_block *block,
+                                     double most_px, int *style, double *width);
 enum reader_status pages_stage_add(struct reader_pages *p, const struct reader_block *block,
                                    const struct page_manner *manner);
 

@@ -201,9 +201,12 @@ void pages_nest(const struct reader_pages *p, const struct reader_block *block,
 static const struct reader_region *region_of(const struct reader_pages *p)
 {
     const struct reader_grid *grid = &p->setup.grid;
-    if (!p->made || !grid->texts)
+    const struct reader_region *narrow = &grid->text[0];
+    if (!grid->texts)
         return NULL;
-    return p->wide < 0 ? &grid->text[0] : &grid->wide[p->wide];
+    for (int i = 1; !p->made && i < grid->texts; i++) /* nobody knows in which it comes */
+        narrow = grid->text[i].width < narrow->width ? &grid->text[i] : narrow;
+    return !p->made ? narrow : p->wide < 0 ? &grid->text[0] : &grid->wide[p->wide];
 }
 
 double pages_notes(const struct reader_pages *p)

@@ -89,7 +89,9 @@ struct reader_pages_setup {
     /* the width of a margin for notes of the class `margin`; 0: they stand at the foot */
     double notes_px;
     int columns;
-    struct reader_grid grid;     /* of a column that is scrolled, in place of those above */
+    /* of a column that is scrolled, in place of those above; of pages, their columns of text
+     * and where their notes stand, margin_px above and below them */
+    struct reader_grid grid;
     double sizes[READER_SIZES];  /* of size_px; 0: as usual */
     struct reader_beside beside; /* of figures that do not say where they stand; usual: no */
     enum font_align align;

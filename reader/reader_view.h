@@ -101,8 +101,9 @@ struct reader_stage {
     double x, y, width, height;
     double right; /* where its column ends */
 };
-/* That of a passage that is seen; false: it has none, or the setup has no room for them. */
-bool reader_view_stage(struct reader_view *view, const struct reader_shown *shown,
+/* One of those of a passage that is seen, by its number from 0; false: it has no more, or the
+ * setup has no room for them. */
+bool reader_view_stage(struct reader_view *view, const struct reader_shown *shown, int which,
                        struct reader_stage *out);
 
 /* So much room more under the picture of a block's stage, for its controls: the line that is

@@ -281,22 +281,42 @@ bool reader_view_hit(struct reader_view *view, double x, double y, size_t *byte,
 
 /* ---- stages ---- */
 
-bool reader_view_stage(struct reader_view *view, const struct reader_shown *shown,
+/* The paragraph that is the room of a block's stage; -1: there is none. */
+static int stage_paragraph(const struct made_passage *made, int block, bool beside)
+{
+    for (int i = 0; i < made->count; i++)
+        if (made->paragraphs[i].block == block && made->paragraphs[i].note < 0 &&
+            made->paragraphs[i].figure == beside)
+            return made->paragraphs[i].id;
+    return -1;
+}
+
+bool reader_view_stage(struct reader_view *view, const struct reader_shown *shown, int which,
                        struct reader_stage *out)
 {
     const struct view_passage *p = &view->passages[shown->passage];
-    const struct reader_block *block = &view->document->blocks[p->first];
+    int number = p->first, count;
     struct page_box box;
-    int count;
-    if (block->kind != READER_LIVE || !block->stage_width || view->setup.stage_strip_px <= 0 ||
-        shown->passage < view->begin || shown->passage >= view->end)
+    double most;
+    if (view->setup.stage_strip_px <= 0 || shown->passage < view->begin ||
+        shown->passage >= view->end)
         return false;
-    const int id = view->loaded[shown->passage - view->begin].paragraphs[0].id;
-    if (page_select(view->pages->text, (struct page_place){id, 0}, (struct page_place){id, 1},
+    for (;; number++) {
+        if (number == p->first + p->blocks)
+            return false;
+        const struct reader_block *own = &view->document->blocks[number];
+        if (own->kind == READER_LIVE && own->stage_width && which-- == 0)
+            break;
+    }
+    const struct reader_block *block = &view->document->blocks[number];
+    const bool beside = pages_beside_host(&view->setup, view->document, number, &most) >= 0;
+    const int id = stage_paragraph(&view->loaded[shown->passage - view->begin], number, beside);
+    if (id < 0 ||
+        page_select(view->pages->text, (struct page_place){id, 0}, (struct page_place){id, 1},
                     shown->passage - view->begin, &box, 1, &count) != FONT_OK ||
         count < 1)
         return false;
-    *out = (struct reader_stage){.block = p->first,
+    *out = (struct reader_stage){.block = number,
                                  .x = round(box.x),
                                  .y = round(box.y + shown->y_px + shown->text_px),
                                  .width = round(box.width)};
@@ -305,6 +325,8 @@ bool reader_view_stage(struct reader_view *view, const struct reader_shown *show
     out->right = grid->texts
                      ? region->x + region->width
                      : view->setup.width_px - view->setup.margin_px - view->setup.notes_px;
+    if (beside) /* text stands behind it */
+        out->right = out->x + out->width;
     out->height = round(block->stage_height * out->width / block->stage_width);
     return true;
 }

@@ -293,3 +293,32 @@ void read_chosen_erase(struct read_desk *d)
     read_remarks_group(d, false);
     g_array_unref(strokes);
 }
+
+char *read_chosen_heard(struct read_desk *d)
+{
+    const int all = d->remarks ? reader_remarks_count(d->remarks) : 0,
+              count = read_chosen_count(d);
+    int can = 0, first = -1;
+    if (d->tool != READ_TOOL_MOVE)
+        return NULL;
+    for (int i = 0; i < all; i++) {
+        if (!read_chosen_can(d, i))
+            continue;
+        can++;
+        first = first < 0 && read_chosen_is(d, i) ? i : first;
+    }
+    if (!count || first < 0)
+        return g_strdup_printf(_("No ink is chosen, of %d strokes. Tab chooses one."), can);
+    const struct reader_remark *r = reader_remarks_get(d->remarks, first);
+    char *words = g_strndup(d->document->plain + r->begin, MIN(r->end - r->begin, 60));
+    char *valid = g_utf8_make_valid(words, -1);
+    char *says =
+        g_strdup_printf(r->around != READER_AROUND_NOT
+                            ? _("Ink is chosen: %d of %d strokes, at %s, text flows around it")
+                        : r->group >= 0 ? _("Ink is chosen: %d of %d strokes, a group, at %s")
+                                        : _("Ink is chosen: %d of %d strokes, at %s"),
+                        count, can, valid);
+    g_free(valid);
+    g_free(words);
+    return says;
+}

@@ -24,6 +24,7 @@
  *     read_page.c      the page: a widget that shows a reader_view
  *     read_changed.c   what follows when the page is other
  *     read_heard.c     the page's text for screen readers
+ *     read_choices.c   and what keys act on
  *     read_stages.c    demonstrations in it
  *     read_stages_draw.c  how they are seen
  *     read_stages_hand.c  pointer and keys for them
@@ -177,14 +178,16 @@ struct read_desk {
     GPtrArray *watches; /* GFileMonitor */
     guint reloading;
     GPtrArray *heard;       /* labels */
+    char *heard_chosen;     /* what keys act on, as it was said last */
     guint hearing, barring; /* sources of what is done soon */
     struct read_play *play;
     /* what files below the window's call of it */
     void (*document_shown)(struct read_desk *d);
-    void (*acted)(struct read_desk *d);   /* other actions are possible */
-    void (*listed)(struct read_desk *d);  /* what readers have left is other */
-    void (*placed)(struct read_desk *d);  /* another place is read */
-    void (*changed)(struct read_desk *d); /* the page is other: read_page_changed() */
+    void (*acted)(struct read_desk *d);       /* other actions are possible */
+    void (*choices_say)(struct read_desk *d); /* read_choices_say() */
+    void (*listed)(struct read_desk *d);      /* what readers have left is other */
+    void (*placed)(struct read_desk *d);      /* another place is read */
+    void (*changed)(struct read_desk *d);     /* the page is other: read_page_changed() */
     bool (*step)(struct read_desk *d, bool forward); /* read_keys_step() */
     void (*resized)(struct read_desk *d, int width, int height);
     void (*say)(struct read_desk *d, const char *text);
@@ -221,6 +224,8 @@ void read_grid_keep(struct read_desk *d); /* the template can be undone to what 
 bool read_grid_can(const struct read_desk *d, bool redo);
 void read_grid_undo(struct read_desk *d, bool redo);
 void read_grid_draw(struct read_desk *d, GtkSnapshot *snapshot);
+/* The line that keys move, in words; NULL: the grid is not seen. Owns: the caller frees it. */
+char *read_grid_heard(const struct read_desk *d);
 
 /* read_layers.c */
 void read_layers_begin(struct read_desk *d); /* as they were, or the user's own is written */
@@ -314,6 +319,9 @@ void read_page_changed(struct read_desk *d); /* to be drawn anew */
 
 /* read_page.c */
 GtkWidget *read_page_new(struct read_desk *d);
+
+/* read_choices.c */
+void read_choices_say(struct read_desk *d);
 
 /* read_heard.c */
 void read_heard_changed(struct read_desk *d); /* soon */
@@ -461,6 +469,8 @@ void read_pen_attach(struct read_desk *d);
 bool read_chosen_can(const struct read_desk *d, int index);
 bool read_chosen_is(const struct read_desk *d, int index);
 int read_chosen_count(struct read_desk *d); /* those that can still be */
+/* What is chosen, in words; NULL: nothing is being chosen. Owns: the caller frees it. */
+char *read_chosen_heard(struct read_desk *d);
 void read_chosen_none(struct read_desk *d);
 /* A stroke with its group, alone or with those that are; or all; or no longer. */
 void read_chosen_take(struct read_desk *d, int index, bool more);

@@ -199,6 +199,20 @@ bool read_grid_key(struct read_desk *d, guint key)
     }
 }
 
+char *read_grid_heard(const struct read_desk *d)
+{
+    const int count = edges_count(d);
+    if (!d->grid_shown)
+        return NULL;
+    if (d->grid_edge < 0 || d->grid_edge >= count)
+        return g_strdup_printf(_("The grid has %d lines. Tab takes one."), count);
+    const struct reader_grid_column *c = &d->setup.grid.columns[d->grid_edge / 2];
+    return g_strdup_printf(
+        d->grid_edge % 2 ? _("Line %d of %d: right edge of column %d, which is %.1f em wide")
+                         : _("Line %d of %d: left edge of column %d, which is %.1f em wide"),
+        d->grid_edge + 1, count, c->number + 1, c->width / d->size_px);
+}
+
 void read_grid_draw(struct read_desk *d, GtkSnapshot *snapshot)
 {
     const double *c = d->colours->link;

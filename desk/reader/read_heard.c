@@ -40,8 +40,9 @@ static gboolean heard_fill(gpointer data)
     int count = 0;
     guint used = 0;
     d->hearing = 0;
-    if (!d->view || reader_view_look(d->view, &shown, &count) != READER_OK)
+    if (!d->page || !d->view || reader_view_look(d->view, &shown, &count) != READER_OK)
         return G_SOURCE_REMOVE;
+    d->choices_say(d);
     for (int i = 0; i < count && used < HEARD_MAX; i++) {
         const bool heading =
             reader_document_block(d->document, shown[i].begin)->kind == READER_HEADING;
@@ -94,4 +95,5 @@ void read_heard_finish(struct read_desk *d)
     if (d->barring)
         g_source_remove(d->barring);
     d->hearing = d->barring = 0;
+    g_clear_pointer(&d->heard_chosen, g_free);
 }

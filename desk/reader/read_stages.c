@@ -458,9 +458,9 @@ static gboolean fill(gpointer data)
     if (!d->page || !d->view || reader_view_look(d->view, &shown, &count) != READER_OK)
         return G_SOURCE_REMOVE;
     for (int i = 0; i < count; i++)
-        if (reader_view_stage(d->view, &shown[i], &place) &&
-            !read_stage_of(stages, place.block))
-            stage_new(stages, place.block);
+        for (int k = 0; reader_view_stage(d->view, &shown[i], k, &place); k++)
+            if (!read_stage_of(stages, place.block))
+                stage_new(stages, place.block);
     gtk_widget_queue_allocate(d->page);
     return G_SOURCE_REMOVE;
 }
@@ -499,17 +499,16 @@ void read_stages_place(struct read_desk *d)
         count = 0;
     for (guint i = 0; i < d->stages->all->len; i++)
         ((struct stage *)g_ptr_array_index(d->stages->all, i))->seen = false;
-    for (int i = 0; i < count; i++) {
-        struct stage *s = reader_view_stage(d->view, &shown[i], &place)
-                              ? read_stage_of(d->stages, place.block)
-                              : NULL;
-        if (!s)
-            continue;
-        s->place = place;
-        s->seen = place.y < d->setup.height_px &&
-                  place.y + place.height + d->setup.stage_strip_px + more_px(s) > 0;
-        s->seen_us = g_get_monotonic_time();
-    }
+    for (int i = 0; i < count; i++)
+        for (int k = 0; reader_view_stage(d->view, &shown[i], k, &place); k++) {
+            struct stage *s = read_stage_of(d->stages, place.block);
+            if (!s)
+                continue;
+            s->place = place;
+            s->seen = place.y < d->setup.height_px &&
+                      place.y + place.height + d->setup.stage_strip_px + more_px(s) > 0;
+            s->seen_us = g_get_monotonic_time();
+        }
     for (guint i = 0; i < d->stages->all->len; i++)
         strip_place(g_ptr_array_index(d->stages->all, i));
     tick_ensure(d->stages);

@@ -231,6 +231,7 @@ void read_window_open(struct read_desk *d)
     d->say = say;
     d->document_shown = document_shown;
     d->acted = read_actions_enable;
+    d->choices_say = read_choices_say;
     d->listed = read_list_fill;
     d->placed = read_contents_follow;
     d->changed = read_page_changed;

@@ -48,7 +48,7 @@ static bool is_html(const struct read *r)
 static bool template_has_pages(const struct reader_template *t)
 {
     const struct reader_colours *usual = reader_colours_of(false), *own = &t->colours[0];
-    bool has = t->beside.side != READER_SIDE_USUAL ||
+    bool has = t->texts_count > 1 || t->beside.side != READER_SIDE_USUAL ||
                memcmp(own->link, usual->link, sizeof own->link) != 0 ||
                memcmp(own->struck, usual->struck, sizeof own->struck) != 0;
     for (int i = 0; i < READER_SIZES; i++)
@@ -73,8 +73,8 @@ static int out_check(const struct read *r, const struct option_row *rows,
             return fail_usage("read", "--theme has no effect on pages: it is for %s", ".html");
         if (r->template && !template_has_pages(&r->look))
             return fail_usage("read",
-                              "--template: '%.60s' says nothing that pages have, as sizes, "
-                              "links' colours and figures beside text; they have --columns "
+                              "--template: '%.60s' says nothing that pages have, as columns of "
+                              "text, sizes and links' colours; they have --columns "
                               "and --notes",
                               r->template);
         if (r->small_px && (type_out_of(r->pages.out_path) != TYPE_OUT_PNG || r->pages.page ||
@@ -285,7 +285,23 @@ static int html_write(const struct read *r, const struct reader_document *docume
     return status;
 }
 
-/* Sizes and colours on pages; their columns are their own. */
+/* Columns of text beside each other are those of the template, where the page has room for them
+ * and no others are asked for. */
+static void template_columns(const struct read *r, const struct reader_document *document,
+                             struct reader_pages_setup *setup)
+{
+    struct reader_grid grid;
+    bool notes = false;
+    if (!r->template || r->look.texts_count < 2 || r->columns != 1 || r->notes_px > 0)
+        return;
+    for (int i = 0; i < document->notes_count; i++)
+        notes = notes || strcmp(document->notes[i].class, "margin") == 0;
+    reader_template_grid(&r->look, setup->width_px, setup->size_px, notes, &grid);
+    if (grid.texts > 1)
+        setup->grid = grid;
+}
+
+/* Sizes and colours on pages. */
 static void template_set(const struct read *r, struct reader_pages_setup *setup)
 {
     const struct reader_colours *colours = &r->look.colours[0];
@@ -443,6 +459,8 @@ int verb_read(int argc, char **argv)
     if (r.ragged)
         setup.align = FONT_ALIGN_START;
     status = document_read(&words, &document, &files, &damaged);
+    if (status == EXIT_SUCCESS)
+        template_columns(&r, document, &setup);
     if (status == EXIT_SUCCESS)
         status = document_write(&r, &words, &setup, document, &files, damaged);
     if (status == EXIT_SUCCESS)

@@ -31,7 +31,7 @@ static char folder[] = "/tmp/lutetia-reader-XXXXXX", document[64];
 
 /* ---- the tree ---- */
 
-/* All names and texts, one a line. */
+/* All names, texts and descriptions, one a line. */
 static void text_collect(AtspiAccessible *a, void *context)
 {
     GString *all = context;
@@ -39,7 +39,10 @@ static void text_collect(AtspiAccessible *a, void *context)
     AtspiText *text = atspi_accessible_get_text_iface(a);
     const int count = text ? atspi_text_get_character_count(text, NULL) : 0;
     char *said = count > 0 ? atspi_text_get_text(text, 0, count, NULL) : NULL;
-    g_string_append_printf(all, "%s\n%s\n", name ? name : "", said ? said : "");
+    char *more = atspi_accessible_get_description(a, NULL);
+    g_string_append_printf(all, "%s\n%s\n%s\n", name ? name : "", said ? said : "",
+                           more ? more : "");
+    g_free(more);
     g_free(said);
     g_free(name);
     g_clear_object(&text);
@@ -249,6 +252,25 @@ static void controls_are_reached(void **state)
 }
 
 /* A mouse draws, keys type into a note; both are in the list. */
+/* What keys act on: strokes that are chosen, and lines of the grid. */
+static void choices_are_heard(void)
+{
+    xtest_type(XK_Escape);
+    xtest_type(XK_m);
+    assert_true(heard("No ink is chosen, of 1 strokes.", true));
+    xtest_type(XK_Tab);
+    assert_true(heard("Ink is chosen: 1 of 1 strokes, at ", true));
+    xtest_type(XK_Escape);
+    xtest_type(XK_Escape);
+    assert_true(heard("nk is chosen", false));
+    xtest_type(XK_F8);
+    assert_true(heard("The grid has ", true));
+    xtest_type(XK_Tab);
+    assert_true(heard("Line 1 of ", true));
+    xtest_type(XK_Escape);
+    assert_true(heard("Line 1 of ", false));
+}
+
 static void hand_leaves_notes(void **state)
 {
     (void)state;
@@ -270,6 +292,7 @@ static void hand_leaves_notes(void **state)
     xtest_key(XK_Shift_L, false);
     xtest_key(XK_Control_L, false);
     assert_true(heard("Ink: ", true));
+    choices_are_heard();
     xtest_type(XK_n);
     assert_true(heard("Erase this note", true));
     usleep(300000);

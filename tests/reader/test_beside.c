@@ -65,9 +65,26 @@ static void figure(struct made *m)
             titles[chance(m, 10)]);
 }
 
+/* A script that lives, whose stage may stand beside lines. */
+static void live(struct made *m)
+{
+    static const char *const sides[] = {"left", "right 30%", "", "60% right"};
+    fprintf(m->out, "```lua live %dx%d %s\n", 16 + chance(m, 500), 16 + chance(m, 300),
+            sides[chance(m, 4)]);
+    for (int i = chance(m, 5); i >= 0; i--) {
+        words(m, 1 + chance(m, 4));
+        fputs("\n", m->out);
+    }
+    fputs("```\n\n", m->out);
+}
+
 static void block(struct made *m)
 {
-    const int kind = chance(m, 20);
+    const int kind = chance(m, 22);
+    if (kind >= 20) {
+        live(m);
+        return;
+    }
     if (kind < 6) {
         figure(m);
         return;
@@ -127,6 +144,8 @@ struct window {
     int words_count, pictures_count;
 };
 
+enum { STRIP_PX = 30 };
+
 static void window_see(const struct reader_document *d, struct reader_view *view,
                        struct window *w)
 {
@@ -155,6 +174,14 @@ static void window_see(const struct reader_document *d, struct reader_view *view
                                   ink->width_px, ink->height_px};
         }
         font_layout_finish(&layout);
+        struct reader_stage stage;
+        for (int k = 0;
+             reader_view_stage(view, &shown[i], k, &stage) && w->pictures_count < PICTURES_MAX;
+             k++) {
+            assert_true(stage.right >= stage.x + stage.width - 1);
+            w->pictures[w->pictures_count++] =
+                (struct page_box){stage.x, stage.y, stage.width, stage.height + STRIP_PX};
+        }
     }
 }
 
@@ -333,6 +360,7 @@ static void setup_chance(struct made *m, struct reader_pages_setup *setup)
     setup->height_px = 200 + chance(m, 1000);
     setup->align = chance(m, 2) ? FONT_ALIGN_JUSTIFY : FONT_ALIGN_START;
     setup->beside = (struct reader_beside){0};
+    setup->stage_strip_px = chance(m, 3) ? STRIP_PX : 0;
     if (chance(m, 2))
         setup->beside =
             (struct reader_beside){chance(m, 2) ? READER_SIDE_LEFT : READER_SIDE_RIGHT,

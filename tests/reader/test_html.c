@@ -336,6 +336,36 @@ static void ink_is_scaled_and_grouped(void **state)
     reader_document_destroy(d);
 }
 
+/* Ink that text flows around floats in its paragraph, and has its outline. */
+static void text_flows_around_ink(void **state)
+{
+    (void)state;
+    struct reader_document *d = read_text(marsh, strlen(marsh));
+    struct reader_remarks *remarks = marsh_remarks(d);
+    struct reader_arranged to = reader_remarks_arranged(remarks, 2);
+    to.around = READER_AROUND_LEFT;
+    to.x = 0.5;
+    to.y = 0.25;
+    assert_int_equal(reader_remarks_arrange(remarks, &to, 1), READER_OK);
+    to = reader_remarks_arranged(remarks, 5);
+    to.around = READER_AROUND_RIGHT;
+    to.x = -3;
+    assert_int_equal(reader_remarks_arrange(remarks, &to, 1), READER_OK);
+    char *html = html_of(d, &(struct reader_html_setup){.remarks = remarks});
+    /* 2 ems wide at 0.5, and half its own width more; 1.25 ems high */
+    has(html, "<span class=\"marker\">");
+    has(html, "<p id=\"b.2\"><span class=\"around l\" "
+              "style=\"width:2.60rem;height:1.35rem;shape-outside:polygon(0.00rem 0,");
+    has(html, ",0.00rem 1.35rem)\"><svg viewBox=\"0 0 1 1\" role=\"img\" aria-label=\"ink\" "
+              "style=\"left:0.500rem;top:0.250rem\">");
+    has(html, "<span class=\"around r\" style=\"width:3.0");
+    has(html, "polygon(3.0");
+    has_not(html, "class=\"ink\"");
+    free(html);
+    reader_remarks_close(remarks);
+    reader_document_destroy(d);
+}
+
 static void remarks_without_words_stand_at_the_end(void **state)
 {
     (void)state;
@@ -455,6 +485,7 @@ int main(void)
         cmocka_unit_test(themes_are_the_window_s),
         cmocka_unit_test(remarks_are_at_their_words),
         cmocka_unit_test(ink_is_scaled_and_grouped),
+        cmocka_unit_test(text_flows_around_ink),
         cmocka_unit_test(remarks_without_words_stand_at_the_end),
         cmocka_unit_test(words_stay_under_remarks),
         cmocka_unit_test(what_formulas_lack_is_told),

@@ -3,6 +3,7 @@
  * hard. */
 #include <reader_document.h>
 #include <reader_pages.h>
+#include <reader_template.h>
 
 /* clang-format off */
 #include <setjmp.h>
@@ -392,6 +393,50 @@ static void pictures_stand_where_they_are_said(void **state)
     made_finish(&m);
 }
 
+static char *repeated(const char *before, const char *part, int count, const char *after)
+{
+    size_t n = strlen(part);
+    char *text = malloc(strlen(before) + n * (size_t)count + strlen(after) + 1);
+    assert_non_null(text);
+    char *at = stpcpy(text, before);
+    for (int i = 0; i < count; i++)
+        at = stpcpy(at, part);
+    strcpy(at, after);
+    return text;
+}
+
+/* Pages have the columns of a template's grid, and their notes beside them. */
+static void columns_are_those_of_a_template(void **state)
+{
+    (void)state;
+    struct reader_template t;
+    struct reader_pages_setup setup = plain_setup();
+    setup.width_px = 1200;
+    setup.height_px = 300;
+    assert_int_equal(reader_template_named("two-columns", &t), READER_OK);
+    reader_template_grid(&t, setup.width_px, setup.size_px, true, &setup.grid);
+    assert_int_equal(setup.grid.texts, 2);
+    char *text =
+        repeated("Begin[^margin:n] ", "reeds and water ", 200, "end.\n\n[^margin:n]: Noted.\n");
+    struct made m = make(text, &setup);
+    struct seen s = look(&m, 0);
+    int inside[2] = {0};
+    for (int i = 0; i < s.layout.glyphs_count; i++)
+        for (int k = 0; k < 2; k++) {
+            const struct reader_region *r = &setup.grid.text[k];
+            inside[k] += s.layout.glyphs[i].x_px >= r->x - 6 &&
+                         s.layout.glyphs[i].x_px <= r->x + r->width;
+        }
+    assert_true(inside[0] > 300 && inside[1] > 300);
+    assert_true(inside[0] + inside[1] >= s.layout.glyphs_count - 10); /* and the note */
+    const struct font_placed *note = glyph_of(&s, "Noted");
+    const struct reader_region *r = &setup.grid.text[0];
+    assert_true(note->x_px >= r->notes_x && note->x_px < r->notes_x + r->notes_width);
+    seen_finish(&s);
+    made_finish(&m);
+    free(text);
+}
+
 /* Figures and formulas with labels stand with their numbers, and references say them. */
 static void numbers_are_said(void **state)
 {
@@ -410,18 +455,6 @@ static void numbers_are_said(void **state)
     assert_true(number->x_px > glyph_of(&s, "x = y")->x_px);
     seen_finish(&s);
     made_finish(&m);
-}
-
-static char *repeated(const char *before, const char *part, int count, const char *after)
-{
-    size_t n = strlen(part);
-    char *text = malloc(strlen(before) + n * (size_t)count + strlen(after) + 1);
-    assert_non_null(text);
-    char *at = stpcpy(text, before);
-    for (int i = 0; i < count; i++)
-        at = stpcpy(at, part);
-    strcpy(at, after);
-    return text;
 }
 
 /* Deep, long, wide and many: set, in little time and without a line over the edge of what there
@@ -486,6 +519,7 @@ int main(void)
         cmocka_unit_test(wide_code_is_made_smaller),
         cmocka_unit_test(wide_formulas_are_made_smaller),
         cmocka_unit_test(pictures_are_shown),
+        cmocka_unit_test(columns_are_those_of_a_template),
         cmocka_unit_test(pictures_stand_where_they_are_said),
         cmocka_unit_test(numbers_are_said),
         cmocka_unit_test(hostile_documents_are_set),

@@ -404,7 +404,7 @@ static void stages_have_room(void **state)
         for (int i = 0; i < count; i++) {
             struct reader_stage stage;
             struct reader_box code = {0};
-            if (!reader_view_stage(view, &shown[i], &stage))
+            if (!reader_view_stage(view, &shown[i], 0, &stage))
                 continue;
             stages++;
             const struct reader_block *block = &d->blocks[stage.block];
@@ -427,7 +427,7 @@ static void stages_have_room(void **state)
         shown = look(view, &count);
         for (int i = 0; i < count; i++) {
             struct reader_stage stage;
-            assert_false(reader_view_stage(view, &shown[i], &stage));
+            assert_false(reader_view_stage(view, &shown[i], 0, &stage));
         }
         reader_view_destroy(view);
     }
@@ -515,7 +515,7 @@ static void stages_have_controls(void **state)
         assert_int_equal(reader_view_stage_room(view, 1, rooms[k]), READER_OK);
         const struct reader_shown *shown = look(view, &count);
         for (int i = 0; i < count; i++)
-            stages += reader_view_stage(view, &shown[i], &after[stages]);
+            stages += reader_view_stage(view, &shown[i], 0, &after[stages]);
         assert_int_equal(stages, 2);
         if (k == 0)
             memcpy(before, after, sizeof before);
