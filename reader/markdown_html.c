@@ -130,7 +130,7 @@ static void picture_read(struct walk *w, const struct tag *tag, bool alone, int 
         picture_block(w, tag, target, says, line);
         reader_block_open(&w->b, kind, first_line, last_line);
         block->level = level;
-    } else if (target) {
+    } else if (target && (shown || !caption || *caption)) { /* none: it says nothing */
         if (!w->b.open)
             reader_block_open(&w->b, READER_PARAGRAPH, line, line);
         picture_among(w, tag, target, says);

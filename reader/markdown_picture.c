@@ -84,6 +84,7 @@ void picture_enter(struct walk *w, cmark_node *node)
     }
     w->slanted++;
     w->around = w->link;
-    if (w->b.block.kind != READER_PICTURE)
+    if (w->b.block.kind != READER_PICTURE &&
+        !w->link) /* else to where the link around it does */
         w->link = target;
 }

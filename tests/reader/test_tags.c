@@ -49,6 +49,8 @@ static void tags_mean_what_they_say(void **state)
                "html `<p><table><tr><td>a</table>`\np b\n");
     blocks_are("<div align=center><video>\n\na\n\n</video></div>\n\nb\n",
                "html `<div align=center><video>`\np c a\np c `</video>`\np b\n");
+    blocks_are("[![a](https://h/a.svg)](b) ![c](https://h/c.svg) <img src=d.svg alt=\"\">e\n",
+               "p *[a]*(b) *[c]*(https://h/c.svg) e\n");
     blocks_are("> <div align=center>\n>\n> a\n\nb\n", "p> c a\np b\n");
     blocks_are(
         "<p onclick=\"x()\">a &unknown; &#65;&#x42; <a href=\"javascript:x\">b</a></p>\n",
