@@ -13,6 +13,7 @@
 #include "base/errors.h"
 #include "device/far.h"
 #include "machine.h"
+#include "ops/all_to_all_far.h"
 #include "ops/scan.h"
 #include "ops/sums_far.h"
 #include "plans/far.h"
@@ -273,6 +274,9 @@ static void perform(const struct ranks_command *c, const void *payload)
         plan_command(c, payload);
     else if (c->what == RANKS_REDUCE) {
         if (!sums_far_answer(the.m, &the.arrays, payload, c->payload))
+            fail(c);
+    } else if (c->what == RANKS_ROUTE) {
+        if (!all_to_all_told(the.m, &the.arrays, payload, c->payload))
             fail(c);
     } else if (c->what == RANKS_EACH)
         each(c, payload);

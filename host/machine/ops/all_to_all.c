@@ -6,97 +6,13 @@
 
 #include "base/errors.h"
 #include "base/types.h"
+#include "ops/all_to_all_far.h"
+#include "ops/exchange.h"
 #include "ops/near.h"
 #include "run/run.h"
 #include "sequencers/sequencers.h"
 
 enum { READ = 4 }; /* arrays that messages read */
-
-typedef unsigned __int128 u128;
-
-/* A block's own part of a set, or a set that is not cut. */
-struct share {
-    struct vpset set;
-    size_t skip;    /* elements of its arrays before its first row */
-    uint64_t first; /* the index in the whole set of its first processor */
-};
-
-/* From one share to another, in the order of the senders. */
-struct mail {
-    size_t count, room;
-    uint32_t *index; /* in the share that it goes to */
-    uint32_t *place; /* of a get: where the element is wanted, in the getter's array */
-    char *elements;
-};
-
-/* What messages of a share are sorted by. */
-struct sender {
-    struct share share;
-    struct device_buffer address, context; /* only where these are for the front end */
-    struct near_route route;               /* to the whole set */
-    const char *source;
-};
-
-struct exchange {
-    const struct message *g;
-    enum machine_combiner combiner;
-    bool gets;
-    const struct machine_value *same; /* the number that all send; NULL: elements travel */
-    size_t bytes;                     /* of an element */
-    struct device_buffer *out, *arrived;
-    struct crew *crew; /* NULL: there is too little work to be shared out */
-    int senders_count, takers_count;
-    struct sender *senders;
-    struct share *takers;
-    struct mail *mail; /* from sender i to taker k: [i * takers_count + k] */
-    atomic_bool beyond, failed;
-};
-
-/* ---- elements ---- */
-
-#define BY_BYTES(bytes, LOOP)                                                                  \
-    switch (bytes) {                                                                           \
-    case 1:                                                                                    \
-        LOOP(uint8_t)                                                                          \
-        break;                                                                                 \
-    case 2:                                                                                    \
-        LOOP(uint16_t)                                                                         \
-        break;                                                                                 \
-    case 4:                                                                                    \
-        LOOP(uint32_t)                                                                         \
-        break;                                                                                 \
-    case 8:                                                                                    \
-        LOOP(uint64_t)                                                                         \
-        break;                                                                                 \
-    default:                                                                                   \
-        LOOP(u128)                                                                             \
-    }
-
-#define PICK(T)                                                                                \
-    for (size_t i = 0; i < count; i++)                                                         \
-        ((T *)(void *)to)[i] = ((const T *)(const void *)from)[at[i]];
-
-#define PUT(T)                                                                                 \
-    for (size_t i = 0; i < count; i++)                                                         \
-        ((T *)(void *)to)[at[i]] = ((const T *)(const void *)from)[i];
-
-static void lanes_pick(size_t bytes, char *to, const char *from, const uint16_t *at,
-                       size_t count)
-{
-    BY_BYTES(bytes, PICK)
-}
-
-static void places_pick(size_t bytes, char *to, const char *from, const uint32_t *at,
-                        size_t count)
-{
-    BY_BYTES(bytes, PICK)
-}
-
-static void places_put(size_t bytes, char *to, const char *from, const uint32_t *at,
-                       size_t count)
-{
-    BY_BYTES(bytes, PUT)
-}
 
 /* ---- shares ---- */
 
@@ -121,13 +37,6 @@ static struct share share_of(struct machine *m, int set, int block)
     return s;
 }
 
-/* Where its first row is in an array of its set. */
-static char *share_host(const struct device_buffer *b, const struct share *s, int i,
-                        size_t element)
-{
-    return (char *)(b->blocks ? b->blocks->of[i] : b)->host + s->skip * element;
-}
-
 /* ---- what messages read ---- */
 
 /* The arrays of the senders' set, and then that of the others'; NULL: there is none. */
@@ -146,14 +55,15 @@ static bool is_near(const struct machine *m, const struct vpset *s)
 }
 
 enum machine_status all_to_all_arrange(struct machine *m, const struct message *g, bool gets,
-                                       bool *in_blocks)
+                                       bool far_too, bool *in_blocks)
 {
     struct machine_value *of[READ];
     arrays_read(g, gets, of);
     *in_blocks = false;
     if (!sequencers_have(m, of, READ))
         return MACHINE_OK;
-    *in_blocks = sequencers_are_near(m) && is_near(m, g->from) && is_near(m, g->to);
+    *in_blocks = (sequencers_are_near(m) || (far_too && m->sequencers->far_near)) &&
+                 is_near(m, g->from) && is_near(m, g->to);
     for (int i = 0; i < READ; i++) {
         const int set = i < READ - 1 ? g->from_set : g->to_set;
         if (!of[i] || (*in_blocks && !sequencers_cut(m, set)))
@@ -165,168 +75,22 @@ enum machine_status all_to_all_arrange(struct machine *m, const struct message *
     return MACHINE_OK;
 }
 
-/* ---- sorting ---- */
-
-static bool mail_grows(const struct exchange *e, struct mail *q, size_t more)
-{
-    if (q->count + more <= q->room)
-        return true;
-    const size_t room = 2 * q->room + more + ROUTE_BLOCK;
-    uint32_t *index = realloc(q->index, room * sizeof *index);
-    q->index = index ? index : q->index;
-    uint32_t *place = e->gets && index ? realloc(q->place, room * sizeof *place) : NULL;
-    q->place = place ? place : q->place;
-    const bool carries = !e->gets && !e->same;
-    char *elements = carries && index ? realloc(q->elements, room * e->bytes) : NULL;
-    q->elements = elements ? elements : q->elements;
-    if (!index || (e->gets && !place) || (carries && !elements))
-        return false;
-    q->room = room;
-    return true;
-}
-
-/* Those of n senders, from that element on, whose messages go to a share. */
-static bool mail_add(const struct exchange *e, const struct sender *from,
-                     const struct share *to, const uint32_t *index, size_t at, int n,
-                     struct mail *q)
-{
-    const struct near_route *r = &from->route;
-    const uint8_t *context = r->context ? (const uint8_t *)r->context->host + at : NULL;
-    const struct lanes_filter by = {index, (uint32_t)to->first, (uint32_t)to->set.count,
-                                    (uint32_t)(0 - to->first)};
-    uint32_t there[ROUTE_BLOCK + 16];
-    uint16_t lane[ROUTE_BLOCK + 16];
-    const size_t count = r->lanes->filter(&by, context, n, there, lane);
-    if (!count)
-        return true;
-    if (!mail_grows(e, q, count))
-        return false;
-    memcpy(q->index + q->count, there, count * sizeof *there);
-    for (size_t i = 0; e->gets && i < count; i++)
-        q->place[q->count + i] = (uint32_t)at + lane[i];
-    if (from->source)
-        lanes_pick(e->bytes, q->elements + q->count * e->bytes, from->source + at * e->bytes,
-                   lane, count);
-    q->count += count;
-    return true;
-}
-
-static void part_sort(void *of, int part, int worker)
-{
-    struct exchange *e = of;
-    const struct sender *from = &e->senders[part];
-    const struct vpset *s = &from->share.set;
-    struct mail *mail = &e->mail[part * e->takers_count];
-    uint32_t index[ROUTE_BLOCK];
-    bool good = true;
-    (void)worker;
-    for (uint64_t row = 0; row < s->rows && good; row++)
-        for (int x = 0; x < s->width && good; x += ROUTE_BLOCK) {
-            const int n = s->width - x < ROUTE_BLOCK ? s->width - x : ROUTE_BLOCK;
-            const size_t at = (size_t)row * s->pitch + (size_t)s->halo + (size_t)x;
-            near_addresses(&from->route, at, n, index);
-            near_look_beyond(&from->route, at, n, index);
-            for (int k = 0; k < e->takers_count && good; k++)
-                good = mail_add(e, from, &e->takers[k], index, at, n, &mail[k]);
-        }
-    if (!good)
-        atomic_store(&e->failed, true);
-}
-
-/* ---- delivery ---- */
-
-/* What a share's mail comes to, sender by sender. */
-static void part_deliver(void *of, int part, int worker)
-{
-    struct exchange *e = of;
-    const struct share *to = &e->takers[part];
-    struct device_buffer out = {.host = share_host(e->out, to, part, e->bytes)},
-                         arrived = {.host = e->arrived ? share_host(e->arrived, to, part, 1)
-                                                       : NULL};
-    (void)worker;
-    for (int i = 0; i < e->senders_count; i++) {
-        const struct mail *q = &e->mail[i * e->takers_count + part];
-        const struct vpset from = {
-            .rows = 1, .count = q->count, .width = (int)q->count, .pitch = q->count};
-        struct device_buffer index = {.host = q->index}, elements = {.host = q->elements};
-        const struct machine_value source = {.op = NODE_BUFFER, .buffer = &elements};
-        struct near_route r = e->senders[i].route;
-        r.from = &from;
-        r.to = &to->set;
-        r.address = &index;
-        r.context = NULL;
-        r.address_bytes = sizeof *q->index;
-        r.mask = UINT32_MAX;
-        r.there = true;
-        r.distinct = false;
-        r.beyond = NULL;
-        if (q->count)
-            near_send(&r, e->combiner, e->g->source->type, e->same ? e->same : &source, &out,
-                      e->arrived ? &arrived : NULL);
-    }
-}
-
-/* What the others want of a share. */
-static void part_answer(void *of, int part, int worker)
-{
-    struct exchange *e = of;
-    const struct share *to = &e->takers[part];
-    const struct vpset *s = &to->set;
-    const struct lanes_rows rows = {(uint32_t)s->width, (uint32_t)s->halo,
-                                    (uint32_t)(s->pitch - (size_t)s->width)};
-    const char *from = share_host(e->g->source->buffer, to, part, e->bytes);
-    (void)worker;
-    for (int i = 0; i < e->senders_count; i++) {
-        struct mail *q = &e->mail[i * e->takers_count + part];
-        if (!q->count)
-            continue;
-        q->elements = malloc(q->count * e->bytes);
-        if (!q->elements) {
-            atomic_store(&e->failed, true);
-            return;
-        }
-        if (s->rows > 1)
-            e->senders[i].route.lanes->places(q->index, q->count, &rows);
-        places_pick(e->bytes, q->elements,
-                    from + (s->rows > 1 ? 0 : (size_t)s->halo * e->bytes), q->index, q->count);
-    }
-}
-
-/* Nobody answers who does not exist: 0. */
-static void part_take(void *of, int part, int worker)
-{
-    struct exchange *e = of;
-    const struct share *share = &e->senders[part].share;
-    const struct vpset *s = &share->set;
-    const struct mail *mail = &e->mail[part * e->takers_count];
-    struct device_buffer out = {.host = share_host(e->out, share, part, e->bytes)};
-    size_t answers = 0;
-    (void)worker;
-    for (int k = 0; k < e->takers_count; k++)
-        answers += mail[k].count;
-    for (uint64_t row = 0; row < s->rows && answers < s->count; row++)
-        memset((char *)out.host + (row * s->pitch + (size_t)s->halo) * e->bytes, 0,
-               (size_t)s->width * e->bytes);
-    for (int k = 0; k < e->takers_count; k++)
-        places_put(e->bytes, out.host, mail[k].elements, mail[k].place, mail[k].count);
-    near_rows_repeat(s, e->bytes, &out);
-}
-
 /* ---- exchanges ---- */
 
 static void senders_make(struct machine *m, struct exchange *e)
 {
     const struct message *g = e->g;
+    e->route = message_route(m, g, false);
     for (int i = 0; i < e->senders_count; i++) {
         struct sender *s = &e->senders[i];
         s->share = share_of(m, g->from_set, i);
         s->address.host =
-            share_host(g->address->buffer, &s->share, i, type_bytes(g->address->type));
-        s->context.host = g->all ? NULL : share_host(g->context->buffer, &s->share, i, 1);
+            exchange_host(g->address->buffer, &s->share, i, type_bytes(g->address->type));
+        s->context.host = g->all ? NULL : exchange_host(g->context->buffer, &s->share, i, 1);
         s->source = e->gets || e->same || !g->source
                         ? NULL
-                        : share_host(g->source->buffer, &s->share, i, e->bytes);
-        s->route = message_route(m, g, false);
+                        : exchange_host(g->source->buffer, &s->share, i, e->bytes);
+        s->route = e->route;
         s->route.from = &s->share.set;
         s->route.address = &s->address;
         s->route.context = g->all ? NULL : &s->context;
@@ -445,9 +209,12 @@ struct device_buffer *all_to_all_send(struct machine *m, const struct message *g
                       (!arrived || (e.arrived = nothing_arrived(m, g->to_set))) &&
                       array_is_near(m, e.out, &start);
     if (good) {
-        crew_run(e.crew, e.senders_count, part_sort, &e);
-        if (!e.failed)
-            crew_run(e.crew, e.takers_count, part_deliver, &e);
+        if (m->sequencers->far)
+            all_to_all_far(&e);
+        else
+            crew_run(e.crew, e.senders_count, exchange_sort, &e);
+        if (!m->sequencers->far && !e.failed)
+            crew_run(e.crew, e.takers_count, exchange_deliver, &e);
         near_end(m, "sending", start);
         m->run->sent_beyond = m->run->sent_beyond || e.beyond;
     }
@@ -466,12 +233,16 @@ struct device_buffer *all_to_all_get(struct machine *m, const struct message *g)
     const bool good = exchange_begin(m, &e, g, true) &&
                       (e.out = array_new(m, g->from_set, g->source->type)) &&
                       array_is_near(m, e.out, &start);
+    if (good && m->sequencers->far)
+        all_to_all_far(&e);
+    else if (good) {
+        crew_run(e.crew, e.senders_count, exchange_sort, &e);
+        if (!e.failed)
+            crew_run(e.crew, e.takers_count, exchange_answer, &e);
+        if (!e.failed)
+            crew_run(e.crew, e.senders_count, exchange_take, &e);
+    }
     if (good) {
-        crew_run(e.crew, e.senders_count, part_sort, &e);
-        if (!e.failed)
-            crew_run(e.crew, e.takers_count, part_answer, &e);
-        if (!e.failed)
-            crew_run(e.crew, e.senders_count, part_take, &e);
         near_end(m, "getting", start);
     }
     return exchange_end(m, &e, good);

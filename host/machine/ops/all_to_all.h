@@ -17,9 +17,9 @@
 
 /* Whether the messages go from block to block: some of what they read is in blocks only, and
  * then all of it is put into blocks where its set is cut. Else it is put together. gets: of a
- * get. */
+ * get. far_too: other ranks may have blocks. */
 enum machine_status all_to_all_arrange(struct machine *m, const struct message *g, bool gets,
-                                       bool *in_blocks);
+                                       bool far_too, bool *in_blocks);
 /* Of messages that were so arranged. NULL: error set. *arrived: bits; NULL: nobody wants to
  * know. */
 struct device_buffer *all_to_all_send(struct machine *m, const struct message *g,

@@ -324,7 +324,7 @@ static struct machine_value *transmit(struct machine *m, struct message *g,
     size_t bytes = rows.bytes;
     double start;
     bool in_blocks;
-    if (all_to_all_arrange(m, g, false, &in_blocks))
+    if (all_to_all_arrange(m, g, false, true, &in_blocks))
         return NULL;
     if (in_blocks)
         return transmit_in_blocks(m, g, combiner, notification);
@@ -470,7 +470,7 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
     struct machine_type type = g->source->type;
     double start;
     bool in_blocks;
-    if (all_to_all_arrange(m, g, true, &in_blocks))
+    if (all_to_all_arrange(m, g, true, true, &in_blocks))
         return NULL;
     struct device_buffer *out =
         in_blocks ? all_to_all_get(m, g) : message_array(m, g->from, type);
@@ -503,7 +503,8 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
 static bool gets_from_blocks(struct machine *m, struct machine_value *address, int set)
 {
     uint32_t bits;
-    return m->sequencers && sequencers_are_near(m) && m->settings.near && m->device->is_pocl &&
+    return m->sequencers && (sequencers_are_near(m) || m->sequencers->far_near) &&
+           m->settings.near && m->device->is_pocl &&
            (sequencers_cut(m, set) || sequencers_cut(m, m->values->set_current)) &&
            !gets_turned(m, address, set, &bits);
 }
@@ -549,7 +550,7 @@ enum machine_status machine_addresses_check(struct machine *m,
         return m->status;
     if (g.known && g.known->there)
         return MACHINE_OK;
-    if (all_to_all_arrange(m, &g, false, &in_blocks))
+    if (all_to_all_arrange(m, &g, false, false, &in_blocks))
         return m->status;
     if (in_blocks)
         return all_to_all_wrong(m, &g, wrong);

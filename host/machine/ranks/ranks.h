@@ -68,6 +68,7 @@ enum ranks_command_of {
     RANKS_RUN,     /* id; payload: ids of arrays, numbers, ids of results */
     RANKS_FORGET,  /* it: id */
     RANKS_REDUCE,  /* payload: ops/sums_far.c; a reply */
+    RANKS_ROUTE,   /* sends and gets; payload: ops/all_to_all_far.c */
     RANKS_EACH, /* work of a block: kind, VP set, the result; payload: arrays, and the work */
     RANKS_END,
     RANKS_COMMANDS
