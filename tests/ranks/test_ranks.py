@@ -3,6 +3,7 @@
 same      the programs (NAME=PATH) print and write what they do in one process, on 2 and 3 ranks, and on 7 of few rows each
 random    PATH, which is test_random, on 3 ranks
 suite     PATH, a test of cmocka, on 2 ranks
+counts    PATH, which is counts: what is done on ranks, and not in one piece
 forks     PATH, which is forks: input, children, other programs, the status
 wrong     each wrong start is a line (NO_MPI PATH LIBPARIS LUTETIA)
 killed    a rank that is killed ends all within seconds, with a line that names it (PATH)
@@ -84,6 +85,18 @@ def suite(*paths):
         print(out, error)
         if status:
             wrong(f"{path} on 2 ranks")
+
+
+def counts(path):
+    alone = ran([path], ".", LUTETIA_BLOCKS="1")
+    for ranks in ("2", "3", "5"):
+        status, out, error = ran([*MPIRUN, "-n", ranks, path], ".")
+        if status or out != alone[1]:
+            wrong(f"{ranks} ranks", alone[1], out, error)
+        out = ran([*MPIRUN, "-n", ranks, path, "counts"], ".")[1]
+        if out.count("put together: 0") != len(alone[1].splitlines()):
+            wrong(f"{ranks} ranks: something was put together", out)
+    print(out)
 
 
 def forks(path):
@@ -192,7 +205,7 @@ def main():
     if not shutil.which("mpirun"):
         print("skipped: mpirun is not installed (Debian: openmpi-bin)")
         sys.exit(77)
-    what = {"same": lambda *programs: same(programs), "random": random, "suite": suite, "forks": forks, "wrong": wrong_starts,
+    what = {"same": lambda *programs: same(programs), "random": random, "suite": suite, "forks": forks, "counts": counts, "wrong": wrong_starts,
             "killed": killed}
     what[sys.argv[1]](*sys.argv[2:])
     sys.exit(1 if failed else 0)
