@@ -81,6 +81,8 @@ static void senders_make(struct machine *m, struct exchange *e)
 {
     const struct message *g = e->g;
     e->route = message_route(m, g, false);
+    e->route.crew = NULL; /* it does this work, and takes no other meanwhile */
+    e->route.parts = 1;
     for (int i = 0; i < e->senders_count; i++) {
         struct sender *s = &e->senders[i];
         s->share = share_of(m, g->from_set, i);
@@ -94,8 +96,6 @@ static void senders_make(struct machine *m, struct exchange *e)
         s->route.from = &s->share.set;
         s->route.address = &s->address;
         s->route.context = g->all ? NULL : &s->context;
-        s->route.crew = NULL;
-        s->route.parts = 1;
         s->route.beyond = e->gets || m->run->beyond_told ? NULL : &e->beyond;
     }
     for (int k = 0; k < e->takers_count; k++)

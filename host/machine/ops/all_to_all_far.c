@@ -241,6 +241,8 @@ static void sender_set(struct machine *m, struct there *t, int mine)
     struct exchange *e = &t->e;
     struct sender *s = &e->senders[mine];
     e->route = message_route(m, &t->g, false);
+    e->route.crew = NULL;
+    e->route.parts = 1;
     if (mine >= e->senders_count)
         return;
     s->address.host =
@@ -252,8 +254,6 @@ static void sender_set(struct machine *m, struct there *t, int mine)
     s->route.from = &s->share.set;
     s->route.address = &s->address;
     s->route.context = t->g.all ? NULL : &s->context;
-    s->route.crew = NULL;
-    s->route.parts = 1;
     s->route.beyond = t->told.looks_beyond ? &e->beyond : NULL;
 }
 
