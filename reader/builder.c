@@ -294,6 +294,12 @@ void reader_code_add(struct reader_builder *b, const char *utf8, unsigned look)
     look_end(b);
 }
 
+void reader_blanks_drop(struct reader_builder *b)
+{
+    if (b->open && b->status == READER_OK)
+        blanks_drop(&b->block);
+}
+
 void reader_cell_end(struct reader_builder *b)
 {
     look_begin(b, 0, -1, NULL);

@@ -41,6 +41,8 @@ void reader_image_add(struct reader_builder *b, const char *caption, unsigned lo
                       const char *target, struct reader_asked asked);
 /* The same as letters, formulas being what is written there: code. */
 void reader_code_add(struct reader_builder *b, const char *utf8, unsigned look);
+/* Blanks at the end of what there is say nothing. */
+void reader_blanks_drop(struct reader_builder *b);
 /* A cell of a row ends, and another begins. */
 void reader_cell_end(struct reader_builder *b);
 /* A note's number, from 1. */

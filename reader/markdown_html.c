@@ -3,7 +3,7 @@
  *
  * Tags of blocks that are open over several blocks (<div align="center">, <details>) put what
  * is between them in its place; <details> is an item of a list whose sign is a triangle, and
- * what is in it is open. What has no meaning that can be shown (<script>, <table>, <video>)
+ * what is in it is open. What has no meaning that can be shown (<script>, <video>)
  * makes the block of lines that it is in be shown as it is written. Nothing is run, nothing
  * fetched. */
 #include "markdown_internal.h"
@@ -268,6 +268,85 @@ static void item_sign(struct walk *w, int line)
     reader_marker_set(&w->b, marker, line);
 }
 
+/* ---- tables ---- */
+
+/* All rows of a table have as many columns as the one that has most. */
+static void table_end(struct walk *w)
+{
+    struct reader_document *d = w->b.document;
+    struct reader_block *blocks = w->b.in_note ? d->note_blocks : d->blocks;
+    const int count = w->b.in_note ? d->note_blocks_count : d->blocks_count;
+    int columns = 0;
+    for (int i = count - 1; i >= count - w->html.rows && i >= 0; i--)
+        columns = blocks[i].columns > columns ? blocks[i].columns : columns;
+    for (int i = count - 1; i >= count - w->html.rows && i >= 0; i--)
+        blocks[i].columns = columns;
+    w->html.rows = 0;
+}
+
+static void row_open(struct walk *w, int line)
+{
+    reader_block_open(&w->b, READER_ROW, line, line);
+    w->b.block.table = w->b.document->tables_count - 1;
+    memset(w->b.block.aligns, 'l', sizeof w->b.block.aligns);
+    w->html.rows++;
+    w->html.cells = 0;
+}
+
+static void cell_open(struct walk *w, const struct tag *tag, int line)
+{
+    struct html_tags *h = &w->html;
+    struct reader_block *block = &w->b.block;
+    const enum reader_align align = tag_align(tag);
+    if (!w->b.open)
+        row_open(w, line);
+    if (h->cells++)
+        reader_cell_end(&w->b);
+    block->columns = h->cells;
+    block->last_line = line;
+    block->head = h->rows == 1 && tag->level && (h->cells == 1 || block->head);
+    h->heavy = tag->level;
+    h->in_cell = true;
+    if (h->cells <= READER_COLUMNS_MAX)
+        block->aligns[h->cells - 1] = align == READER_ALIGN_CENTER  ? 'c'
+                                      : align == READER_ALIGN_RIGHT ? 'r'
+                                                                    : 'l';
+}
+
+/* False: it is no tag of a table. */
+static bool table_tag(struct walk *w, const struct tag *tag, int line)
+{
+    if (tag->kind != TAG_TABLE && tag->kind != TAG_ROW && tag->kind != TAG_CELL)
+        return false;
+    html_looks_end(w);
+    w->ends = 0;
+    if (w->html.in_cell)
+        reader_blanks_drop(&w->b);
+    w->html.in_cell = false;
+    if (tag->kind != TAG_CELL)
+        reader_block_close(&w->b);
+    if (tag->kind == TAG_CELL && !tag->closing)
+        cell_open(w, tag, line);
+    else if (tag->kind == TAG_TABLE && tag->closing)
+        table_end(w);
+    else if (tag->kind == TAG_TABLE)
+        w->b.document->tables_count++;
+    if (!tag->closing)
+        label_read(w, tag);
+    return true;
+}
+
+/* Whether it is in its place: rows in a table, nothing but letters in cells. */
+static bool table_is_meant(const struct tag *tag, bool *in_table)
+{
+    const bool is_table = tag->kind == TAG_TABLE,
+               part = tag->kind == TAG_ROW || tag->kind == TAG_CELL,
+               good = is_table ? *in_table == tag->closing : part == *in_table;
+    if (is_table)
+        *in_table = !tag->closing;
+    return good || !tag_is_block(tag);
+}
+
 /* A tag that ends the paragraph before it. */
 static void block_tag(struct walk *w, const struct tag *tag, int line)
 {
@@ -325,13 +404,14 @@ void html_inline(struct walk *w, const char *text)
 static bool is_meant(const char *text)
 {
     struct tag tag;
+    bool in_table = false;
     for (const char *at = text; (at = strchr(at, '<'));) {
         const bool read = tag_read(at, &tag);
-        if (read && (tag.kind == TAG_UNKNOWN || !tag.bytes))
+        if (read && (tag.kind == TAG_UNKNOWN || !tag.bytes || !table_is_meant(&tag, &in_table)))
             return false;
         at += read ? tag.bytes : 1;
     }
-    return true;
+    return !in_table;
 }
 
 static void written_put(struct walk *w, cmark_node *node, const char *text)
@@ -413,13 +493,14 @@ void html_block(struct walk *w, cmark_node *node)
         const bool is_tag = tag_read(at, &tag);
         int bytes = is_tag ? tag.bytes : 1 + (int)strcspn(at + 1, "<");
         if (is_tag && tag_is_block(&tag)) {
-            block_tag(w, &tag, line);
+            if (!table_tag(w, &tag, line))
+                block_tag(w, &tag, line);
         } else if (is_tag && tag.kind != TAG_COMMENT) {
             const bool alone = !w->b.open && tag.kind == TAG_PICTURE && only_pictures(at);
             if (tag.kind == TAG_PICTURE && !alone)
                 heading_begin(w, line);
             letter_tag(w, &tag, alone, line);
-        } else if (!is_tag) {
+        } else if (!is_tag && (!w->html.rows || w->html.in_cell)) {
             letters_put(w, at, bytes, line);
         }
         line += lines_in(at, bytes);

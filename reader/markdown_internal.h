@@ -24,6 +24,8 @@ struct html_open {
 };
 struct html_tags {
     int depth, line;
+    int rows, cells; /* of the table that is read */
+    bool in_cell;
     struct html_open open[HTML_DEPTH];
     int opened;
     int heavy, slanted, struck, code, raised, lowered; /* of letters */

@@ -54,6 +54,12 @@ static const struct {
              {"ul", TAG_LIST, 0, 0},
              {"ol", TAG_LIST, 1, 0},
              {"li", TAG_ITEM, 0, 0},
+             {"table", TAG_TABLE, 0, 0},
+             {"tr", TAG_ROW, 0, 0},
+             {"td", TAG_CELL, 0, 0},
+             {"th", TAG_CELL, 1, 0},
+             {"thead", TAG_PLAIN, 0, 0},
+             {"tbody", TAG_PLAIN, 0, 0},
              {"img", TAG_PICTURE, 0, 0},
              {"a", TAG_LINK, 0, 0},
              {"br", TAG_BREAK, 0, 0},
@@ -176,6 +182,9 @@ bool tag_is_block(const struct tag *tag)
     case TAG_SUMMARY:
     case TAG_LIST:
     case TAG_ITEM:
+    case TAG_TABLE:
+    case TAG_ROW:
+    case TAG_CELL:
         return true;
     case TAG_UNKNOWN:
     case TAG_COMMENT:

@@ -19,6 +19,9 @@ enum tag_kind {
     TAG_SUMMARY,
     TAG_LIST, /* level: 1: its items have numbers */
     TAG_ITEM,
+    TAG_TABLE,
+    TAG_ROW,
+    TAG_CELL, /* level: 1: of a head */
     TAG_PICTURE,
     TAG_LINK,
     TAG_LOOK, /* look: of letters between it and its end */

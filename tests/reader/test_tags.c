@@ -45,8 +45,12 @@ static void tags_mean_what_they_say(void **state)
     blocks_are(
         "<a href=\"y\"><img src=\"https://h/b.svg\" alt=\"Build\"></a>\n<img src=c.jpg>\n",
         "p *[Build]*(y) *[c.jpg]*(c.jpg)\n");
-    blocks_are("<p><table><tr><td>a</table>\n\nb\n",
-               "html `<p><table><tr><td>a</table>`\np b\n");
+    blocks_are("<table>\n<tr><th>a<th align=right>b\n<tr><td>c</td> <td>d <b>e</b>\n"
+               "<td><img src=f.png>\n<tr><th>g\n</table>\n\nh\n",
+               "row !a!\t!b!\nrow c\td !e!\t*[<|f.png|>]*(f.png)\nrow !g!\np h\n");
+    blocks_are("<table><tr><td><p>a</td></tr></table>\n",
+               "html `<table><tr><td><p>a</td></tr></table>`\n");
+    blocks_are("<p><table><tr><td>a</table>\n\nb\n", "row a\np b\n");
     blocks_are("<div align=center><video>\n\na\n\n</video></div>\n\nb\n",
                "html `<div align=center><video>`\np c a\np c `</video>`\np b\n");
     blocks_are("[![a](https://h/a.svg)](b) ![c](https://h/c.svg) <img src=d.svg alt=\"\">e\n",
