@@ -456,9 +456,11 @@ int script_mask_text_push(lua_State *L, int index)
     line.pixels_max = fmax(1, script_memory_left(script));
     struct script_mask *mask = script_mask_new(L); /* takes over the screen's gray values */
     struct paper_screen screen;
-    enum paper_status status = paper_line_screen(&line, &screen, NULL);
+    uint32_t missing = 0;
+    enum paper_status status = paper_line_screen(&line, &screen, &missing);
     script_memory_release(L, hold);
     script_edits_tell(L);
+    script_missing_tell(L, line.font, &missing, status == PAPER_OK && missing);
     if (status != PAPER_OK)
         script_fail(L, paper_error());
     mask->bytes = (double)screen.width_px * screen.height_px;

@@ -117,13 +117,13 @@ static void wanted_read(lua_State *L, int index, struct wanted *w)
     s->shapes = w->shapes;
 }
 
-/* The page's coverage; *pages: how many there are. */
+/* The page's coverage; *pages: how many there are. *layout: its glyphs, the caller's. */
 static enum font_status page_cover(const struct wanted *w, const char *text, size_t bytes,
-                                   struct font_cover *cover, int *pages)
+                                   struct font_cover *cover, int *pages,
+                                   struct font_layout *layout)
 {
     struct page_text *set = NULL;
     struct font_painter *painter = NULL;
-    struct font_layout layout = {0};
     struct font_painter_def def = font_painter_def_default();
     def.filter = w->filter ? w->filter : "box";
     def.darken_px = w->darken_px;
@@ -131,12 +131,11 @@ static enum font_status page_cover(const struct wanted *w, const char *text, siz
     if (status == FONT_OK)
         status = page_count(set, pages);
     if (status == FONT_OK && w->page <= *pages)
-        status = page_layout(set, w->page - 1, &layout);
+        status = page_layout(set, w->page - 1, layout);
     if (status == FONT_OK)
         status = font_painter_create(&def, &painter);
     if (status == FONT_OK)
-        status = font_painter_cover(painter, &layout, NULL, 0, 0, cover);
-    font_layout_finish(&layout);
+        status = font_painter_cover(painter, layout, NULL, 0, 0, cover);
     font_painter_destroy(painter);
     page_text_destroy(set);
     return status;
@@ -159,10 +158,14 @@ static int make_page(lua_State *L)
         L, floor(w.setup.width_px), floor(w.setup.height_px), floor(w.x), floor(w.y));
     struct font_cover cover = {mask->width, mask->height, mask->width, mask->gray};
     font_simd_plain_here(true); /* a sheet is the same on every processor */
-    enum font_status status = page_cover(&w, text, bytes, &cover, &pages);
+    struct font_layout layout = {0};
+    enum font_status status = page_cover(&w, text, bytes, &cover, &pages, &layout);
+    struct font_layout lacks = layout;
+    font_layout_finish(&layout);
     font_simd_plain_here(false);
     script_memory_release(L, hold);
     script_edits_tell(L);
+    script_missing_tell(L, w.setup.font, lacks.missing, lacks.missing_count);
     if (status != FONT_OK)
         script_fail(L, font_error());
     lua_pushinteger(L, pages);

@@ -4,6 +4,7 @@
 
 #include <edits.h>
 #include <input_file.h>
+#include <text.h>
 
 #include <lualib.h>
 
@@ -89,17 +90,33 @@ const char *script_font(lua_State *L, const char *name, const char *what)
     return kept;
 }
 
+/* A note of that text, unless there was one. */
+static void note_new(lua_State *L, const char *text)
+{
+    if (lua_getfield(L, LUA_REGISTRYINDEX, text) == LUA_TNIL) {
+        lua_pushboolean(L, true);
+        lua_setfield(L, LUA_REGISTRYINDEX, text);
+        script_note_where(L, text);
+    }
+    lua_pop(L, 1);
+}
+
 void script_edits_tell(lua_State *L)
 {
     const char *changed = font_edits_said();
-    if (!changed)
-        return;
-    if (lua_getfield(L, LUA_REGISTRYINDEX, changed) == LUA_TNIL) {
-        lua_pushboolean(L, true);
-        lua_setfield(L, LUA_REGISTRYINDEX, changed);
-        script_note_where(L, changed);
+    if (changed)
+        note_new(L, changed);
+}
+
+void script_missing_tell(lua_State *L, const char *font, const uint32_t *missing, int count)
+{
+    for (int i = 0; i < count && i < FONT_MISSING_MAX; i++) {
+        char text[160];
+        snprintf(text, sizeof text,
+                 "no font has a glyph for U+%04X; %.80s's sign for that is set instead",
+                 (unsigned)missing[i], font);
+        note_new(L, text);
     }
-    lua_pop(L, 1);
 }
 
 const char *script_path_to_write(lua_State *L, const char *name, const char *ending,

@@ -177,6 +177,8 @@ const char *script_path(lua_State *L, const char *folder, const char *name, cons
 const char *script_font(lua_State *L, const char *name, const char *what);
 /* After a font was opened: a note if it has changed since its edits were made; once of each. */
 void script_edits_tell(lua_State *L);
+/* A note of each character that no font has, once of each. */
+void script_missing_tell(lua_State *L, const char *font, const uint32_t *missing, int count);
 
 /* The same for a file to write, in the output folder: with this ending, not hidden, and not
  * like an option. */

@@ -52,6 +52,17 @@ static struct font_shaper *shaper_of(lua_State *L, struct script_network *s, con
     return font->shaper;
 }
 
+static void missing_tell(lua_State *L, const struct dyn_word_def *def, const char *font)
+{
+    struct font_layout layout = {0};
+    if (font_shaper_layout(def->shaper, def->text, strlen(def->text), 16, NULL, &layout) !=
+        FONT_OK)
+        return; /* dyn_word_create() says why */
+    const struct font_layout lacks = layout;
+    font_layout_finish(&layout);
+    script_missing_tell(L, font, lacks.missing, lacks.missing_count);
+}
+
 /* Reads the controls in the options at index into a style and a world. */
 static void controls_read(lua_State *L, int index, const struct control *controls, int count,
                           void *of)
@@ -122,10 +133,12 @@ static void word_add(lua_State *L, struct script_network *s)
     def.features = script_arg_text(L, 2, "word", "features");
     const char *align = script_arg_text(L, 2, "word", "align");
     const char *preset = script_arg_text(L, 2, "word", "preset");
-    const char *font = script_arg_text(L, 2, "word", "font");
+    const char *named = script_arg_text(L, 2, "word", "font");
+    const char *font = named ? named : font_face_first(fonts);
     def.align = align ? (enum font_align)script_arg_choice(L, "word align", align, aligns)
                       : FONT_ALIGN_START;
-    def.shaper = shaper_of(L, s, font ? font : font_face_first(fonts));
+    def.shaper = shaper_of(L, s, font);
+    missing_tell(L, &def, font);
     if (preset) {
         script_dyn_check(L, dyn_preset_apply(preset, &def.style, &world));
         script_dyn_check(L, dyn_preset_fit(preset, &def, NULL));

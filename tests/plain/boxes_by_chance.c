@@ -178,7 +178,7 @@ static void session(uint64_t seed)
     check(paper_sheet_confine(sheets[0], unit));
     check(paper_sheet_confine(sheets[1], 0));
     for (int k = 0; k < 2 && recorded; k++)
-        check(paper_history_begin(sheets[k], 1e6));
+        check(paper_history_begin(sheets[k], k ? 0 : 1e6));
     for (int i = 0; i < OPERATIONS; i++) {
         something_do(config.pigments_count);
         steps_go(below(STEPS));

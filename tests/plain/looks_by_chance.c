@@ -1,9 +1,12 @@
 /* looks_by_chance.c - random sessions on two sheets. One is painted with strokes that grow,
  * steps go on in boxes, and its picture is kept by looking where it has changed. The other one
- * gets the same strokes at once, has no boxes, and is looked at whole. Pictures are the same to
- * the bit, and so are the planes and what brushes hold.
+ * gets the same strokes at once, has no boxes, is looked at whole, and keeps no copies of its
+ * past, which it computes anew from the beginning. Pictures are the same to the bit, and so are
+ * the planes and what brushes hold.
  *
- *     looks_by_chance [COUNT [SEED]]
+ *     looks_by_chance [COUNT [SEED [undo]]]
+ *
+ * With `undo` every second operation is a move in the past, after which planes are compared.
  *
  * Prints how many strokes were dropped on their way, and what part of the looks was at less
  * than the sheet: without these the test would say nothing. */
@@ -25,6 +28,7 @@ static struct paper_sheet_view view;
 static int width, height;
 static uint8_t picture[3 * SIDE * SIDE];
 static long looks, looks_at_parts, dropped, strokes;
+static bool often_undone;
 
 #define BOTH(call)                                                                             \
     for (int k = 0; k < 2; k++) {                                                              \
@@ -188,7 +192,8 @@ static void something_do(int pigments)
     static uint8_t gray[SCREEN * SCREEN];
     double amount[1 + CHANCE_PIGMENTS];
     struct paper_screen screen = screen_by_chance(gray, SCREEN);
-    const int x = below(width) - SCREEN / 2, y = below(height) - SCREEN / 2, what = below(20);
+    const int x = below(width) - SCREEN / 2, y = below(height) - SCREEN / 2,
+              drawn = below(20), what = often_undone && below(2) ? 6 : drawn;
     const struct paper_screen *through = below(8) ? &screen : NULL;
     const double part = within(0, 1);
     for (int i = 0; i <= pigments; i++)
@@ -229,6 +234,8 @@ static void something_do(int pigments)
             paper_history_undo(k ? whole : grown, back);
             paper_history_redo(k ? whole : grown, forth);
         }
+        if (often_undone)
+            planes_compare("in the past");
         break;
     }
     case 8:
@@ -267,14 +274,15 @@ static void session(uint64_t seed)
     height = config.height;
     check(paper_sheet_create(&config, &grown));
     check(paper_sheet_create(&config, &whole));
-    BOTH(paper_history_begin(sheet, 1e6))
+    check(paper_history_begin(grown, often_undone && below(2) ? 3e5 : 1e6));
+    check(paper_history_begin(whole, 0));
     check(paper_sheet_confine(grown, below(2) ? 4 : 8));
     check(paper_sheet_confine(whole, 0));
     struct paper_air air = paper_air_default();
     air.edge_width = 2;
     BOTH(paper_sheet_air(sheet, &air))
     view_draw(&config);
-    for (int i = 0; i < OPERATIONS; i++) {
+    for (int i = 0; i < (often_undone ? 3 : 1) * OPERATIONS; i++) {
         something_do(config.pigments_count);
         if (below(3) == 0)
             picture_follow();
@@ -292,6 +300,7 @@ int main(int argc, char **argv)
 {
     const long count = argc > 1 ? atol(argv[1]) : 6;
     const uint64_t seed = argc > 2 ? (uint64_t)atoll(argv[2]) : 1;
+    often_undone = argc > 3 && strcmp(argv[3], "undo") == 0;
     for (long i = 0; i < count; i++)
         session(seed + (uint64_t)i);
     printf("%ld sessions; %ld strokes, %ld dropped; %ld of %ld looks at parts\n", count,

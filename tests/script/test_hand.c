@@ -100,12 +100,41 @@ static void the_host_is_told_of_files(void **state)
     assert_string_equal(s.notes, "told.png\ntold.h5\ntold.springs\n");
 }
 
+static void noted(void *context, const char *line)
+{
+    struct scripted *s = context;
+    scripted_append(s->notes, line, strlen(line));
+    scripted_append(s->notes, "\n", 1);
+}
+
+/* A character that no font has stands as a sign among others, and is told once: in masks, in
+ * pages and in words on springs. */
+static void letters_that_no_font_has_are_told(void **state)
+{
+    (void)state;
+    static const char *const made[] = {"text('Bon\\u{F0000}', {size = 20})",
+                                       "page('Bon\\u{F0000}', {width = 90, height = 90})",
+                                       "spring.word{text = 'Bon\\u{F0000}'}",
+                                       "paper{width = 90, height = 40}:type('Bon\\u{F0000}')"};
+    for (int i = 0; i < 4; i++) {
+        struct scripted s = {.config = scripted_config(), .host = {.note = noted}};
+        char twice[256];
+        snprintf(twice, sizeof twice, "for i = 1, 2 do %s end", made[i]);
+        if (scripted_run(&s, twice) != SCRIPT_OK)
+            fail_msg("%s", s.errors);
+        const char *told = strstr(s.notes, "no font has a glyph for U+F0000; ");
+        if (!told || strstr(told + 1, "no font has"))
+            fail_msg("%s: '%s'", made[i], s.notes);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flat_brushes_turn_with_the_stroke),
         cmocka_unit_test(a_board_leans),
         cmocka_unit_test(the_host_is_told_of_files),
+        cmocka_unit_test(letters_that_no_font_has_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

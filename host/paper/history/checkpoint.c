@@ -1,9 +1,8 @@
 /* checkpoint.c - copies of the whole sheet in the front end's memory, within a budget.
  *
  * A checkpoint is offered every CHECKPOINT_EVERY steps and operations: of steps that are done
- * in boxes, as many more as take as long, up to CHECKPOINT_SPARED times as many. Unchanged
- * planes are shared with the checkpoint before; those of the paper itself hardly change. When
- * the budget is full, the checkpoint is dropped whose neighbours are nearest to each other
+ * in boxes, as many more as take as long, up to CHECKPOINT_SPARED times as many. What has not
+ * changed is shared with the checkpoint before (tiles.h). When the budget is full, the checkpoint is dropped whose neighbours are nearest to each other
  * relative to their age. So the recent past is kept in fine steps and the far past in coarse
  * ones.
  */
@@ -18,21 +17,20 @@ static size_t plane_words(const struct paper_sheet *p)
     return (size_t)p->page.grid.width * (size_t)p->page.grid.height;
 }
 
-static double plane_bytes(const struct paper_sheet *p)
-{
-    return (double)(sizeof(struct plane_copy) + 4 * plane_words(p));
-}
-
 static void point_free(struct sheet_history *h, struct checkpoint *point)
 {
-    for (int i = 0; i < point->planes_count; i++)
-        if (--point->planes[i]->users == 0) {
-            free(point->planes[i]);
-            h->held_bytes -= point->plane_bytes;
-        }
-    point->planes_count = 0;
+    planes_copy_drop(point->planes, &h->held_bytes);
+    point->planes = NULL;
     free(point->extras.at);
     point->extras = (struct event_bytes){0};
+}
+
+/* What the planes are from now on known to have been. NULL: nobody knows. */
+static void known_set(struct sheet_history *h, struct planes_copy *planes)
+{
+    planes_copy_share(planes);
+    planes_copy_drop(h->known, &h->held_bytes);
+    h->known = planes;
 }
 
 static void point_drop(struct sheet_history *h, int number)
@@ -76,6 +74,7 @@ void checkpoints_free(struct sheet_history *h)
 {
     checkpoints_drop_after(h, (struct position){-1, 0});
     checkpoint_saved_free(h);
+    known_set(h, NULL);
 }
 
 const struct checkpoint *checkpoint_before(const struct sheet_history *h,
@@ -88,14 +87,6 @@ const struct checkpoint *checkpoint_before(const struct sheet_history *h,
 }
 
 /* ---- taking ---- */
-
-static struct plane_copy *plane_new(const struct paper_sheet *p)
-{
-    struct plane_copy *plane = malloc((size_t)plane_bytes(p));
-    if (plane)
-        plane->users = 1;
-    return plane;
-}
 
 /* The place of a checkpoint for the position, or -1 if there is one. */
 static int place_find(const struct sheet_history *h, struct position position)
@@ -118,34 +109,32 @@ static void point_insert(struct sheet_history *h, const struct checkpoint *point
     h->points_count++;
 }
 
-/* Fills the checkpoint from the sheet; unchanged planes are shared with the one before.
- * False: failed. */
-static bool point_fill(struct paper_sheet *p, struct checkpoint *point,
-                       const struct checkpoint *before)
+/* Makes room for so many bytes. False: there is none, whatever is dropped. */
+static bool room_make(const struct paper_sheet *p)
 {
     struct sheet_history *h = p->history;
-    struct paper_plane planes[PAPER_PLANES_MAX];
-    int count = paper_sheet_planes(p, planes);
-    struct plane_copy *plane = NULL;
-    for (int i = 0; i < count; i++) {
-        if (!plane)
-            plane = plane_new(p);
-        if (!plane || sheet_plane_fetch(p, i, plane->words) != PAPER_OK)
-            break;
-        if (before && memcmp(before->planes[i]->words, plane->words, 4 * plane_words(p)) == 0) {
-            point->planes[i] = before->planes[i];
-            point->planes[i]->users++;
-        } else {
-            point->planes[i] = plane;
-            h->held_bytes += point->plane_bytes;
-            plane = NULL;
-        }
-        point->planes_count++;
+    while (h->points_count == CHECKPOINTS_MAX ||
+           h->held_bytes + planes_copy_bytes(p, h->known) > h->budget_bytes) {
+        if (point_drop_least(h))
+            continue;
+        if (!h->known || h->points_count == CHECKPOINTS_MAX)
+            return false;
+        known_set(h, NULL);
     }
-    free(plane);
-    if (point->planes_count == count && sheet_extras_encode(p, &point->extras) == PAPER_OK &&
-        !point->extras.short_of_memory)
+    return true;
+}
+
+/* Fills the checkpoint from the sheet. False: failed. */
+static bool point_fill(struct paper_sheet *p, struct checkpoint *point)
+{
+    struct sheet_history *h = p->history;
+    point->planes = planes_copy_take(p, h->known, &h->held_bytes);
+    if (point->planes && sheet_extras_encode(p, &point->extras) == PAPER_OK &&
+        !point->extras.short_of_memory) {
+        known_set(h, point->planes);
         return true;
+    }
+    known_set(h, point->planes);
     point_free(h, point);
     return false;
 }
@@ -153,26 +142,19 @@ static bool point_fill(struct paper_sheet *p, struct checkpoint *point,
 void checkpoint_offer(struct paper_sheet *p, bool now)
 {
     struct sheet_history *h = p->history;
-    struct paper_plane planes[PAPER_PLANES_MAX];
     if (h->at.op < 0 || place_find(h, h->at) < 0)
         return;
     const struct checkpoint *before = checkpoint_before(h, h->at);
     long since = h->work - (before ? before->work : 0);
-    double bytes = plane_bytes(p) * paper_sheet_planes(p, planes);
     bool due = now ? since >= 1
                    : since >= CHECKPOINT_EVERY * CHECKPOINT_SPARED ||
                          (double)since - h->spared >= CHECKPOINT_EVERY;
-    if (!due || bytes > h->budget_bytes)
+    if (!due || !room_make(p))
         return;
-    while (h->held_bytes + bytes > h->budget_bytes || h->points_count == CHECKPOINTS_MAX)
-        if (!point_drop_least(h))
-            return;
-    struct checkpoint point = {
-        .position = h->at, .work = h->work, .air = p->air, .plane_bytes = plane_bytes(p)};
+    struct checkpoint point = {.position = h->at, .work = h->work, .air = p->air};
     h->spared = 0;
-    if (!point_fill(p, &point, checkpoint_before(h, h->at)))
-        return;
-    point_insert(h, &point);
+    if (point_fill(p, &point))
+        point_insert(h, &point);
 }
 
 void checkpoint_reached(struct sheet_history *h, const struct checkpoint *point)
@@ -184,18 +166,16 @@ void checkpoint_reached(struct sheet_history *h, const struct checkpoint *point)
 
 enum paper_status checkpoint_restore(struct paper_sheet *p, const struct checkpoint *point)
 {
-    sheet_change_all(p);
-    for (int i = 0; i < point->planes_count; i++)
-        sheet_plane_write(p, i, point->planes[i]->words);
-    sheet_planes_written(p);
-    p->air = point->air;
-    enum paper_status status = paper_leave(&p->page);
+    struct sheet_history *h = p->history;
+    enum paper_status status = planes_copy_restore(p, point->planes, h->known);
+    known_set(h, status == PAPER_OK ? point->planes : NULL);
     struct event_reader r = {point->extras.at, point->extras.at + point->extras.count, false};
     if (status == PAPER_OK)
         status = sheet_extras_decode(p, &r);
-    p->history->at = point->position;
-    p->history->work = point->work;
-    p->history->spared = 0;
+    p->air = point->air;
+    h->at = point->position;
+    h->work = point->work;
+    h->spared = 0;
     return status;
 }
 
@@ -232,25 +212,22 @@ enum paper_status checkpoint_pin(struct paper_sheet *p, paper_plane_source sourc
 {
     struct sheet_history *h = p->history;
     struct paper_plane planes[PAPER_PLANES_MAX];
-    int count = paper_sheet_planes(p, planes);
-    struct checkpoint *saved = malloc(sizeof *saved);
-    struct checkpoint point = {.air = *air, .plane_bytes = plane_bytes(p), .pinned = true};
-    if (!saved)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet");
+    const int count = paper_sheet_planes(p, planes);
+    struct checkpoint *saved = malloc(sizeof *saved), point = {.air = *air, .pinned = true};
+    uint32_t *words = malloc(4 * plane_words(p));
+    point.planes = planes_copy_new(p, &h->held_bytes);
     enum paper_status status = PAPER_OK;
-    for (int i = 0; i < count && status == PAPER_OK; i++) {
-        point.planes[i] = plane_new(p);
-        if (!point.planes[i]) {
-            status = paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet of %dx%d",
-                                p->page.grid.width, p->page.grid.height);
-            break;
-        }
-        point.planes_count++;
-        h->held_bytes += point.plane_bytes;
-        status = source(context, i, point.planes[i]->words);
+    bool room = saved && words && point.planes;
+    for (int i = 0; i < count && status == PAPER_OK && room; i++) {
+        status = source(context, i, words);
         if (status == PAPER_OK)
-            status = sheet_plane_check(p, i, point.planes[i]->words);
+            status = sheet_plane_check(p, i, words);
+        room = status != PAPER_OK || planes_copy_put(point.planes, i, words, &h->held_bytes);
     }
+    free(words);
+    if (!room)
+        status = paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet of %dx%d",
+                            p->page.grid.width, p->page.grid.height);
     event_put_bytes(&point.extras, extras->at, (size_t)(extras->end - extras->at));
     if (status == PAPER_OK && point.extras.short_of_memory)
         status = paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet's brushes");

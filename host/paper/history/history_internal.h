@@ -16,6 +16,7 @@
 
 #include "event/event.h"
 #include "history.h"
+#include "history/tiles.h"
 
 #include <log.h>
 
@@ -52,19 +53,12 @@ struct position {
     int op, step;
 };
 
-struct plane_copy {
-    int users;
-    uint32_t words[];
-};
-
 struct checkpoint {
     struct position position;
     long work; /* number of operations and steps before it */
     struct paper_air air;
     struct event_bytes extras;
-    double plane_bytes;
-    int planes_count;
-    struct plane_copy *planes[PAPER_PLANES_MAX];
+    struct planes_copy *planes;
     bool pinned; /* a saved state: kept until it has been reached */
 };
 
@@ -109,6 +103,8 @@ struct sheet_history {
     } inserted;
     struct checkpoint points[CHECKPOINTS_MAX]; /* by position */
     int points_count;
+    struct planes_copy *known; /* what the planes were at the last checkpoint that was taken or
+                                * given back; NULL: nobody knows */
     double budget_bytes, held_bytes;
     paper_history_watch watch;
     void *watch_context;

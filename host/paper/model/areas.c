@@ -1,6 +1,6 @@
-/* areas.c - where the picture of a sheet has changed since somebody asked: a few rectangles.
- * Where there would be more than there is room for, those two become one that lose least by
- * it. */
+/* areas.c - where the picture of a sheet has changed since somebody asked, and where its planes
+ * have since they were copied: a few rectangles. Where there would be more than there is room
+ * for, those two become one that lose least by it. */
 #include "model/model.h"
 
 static struct paper_area joined(const struct paper_area *a, const struct paper_area *b)
@@ -56,6 +56,7 @@ static void add(struct sheet_areas *all, struct paper_area area)
 void sheet_area_mark_all(struct paper_sheet *p)
 {
     p->changed = (struct sheet_areas){1, {{0, 0, p->page.grid.width, p->page.grid.height}}};
+    p->unkept = p->changed;
 }
 
 /* A stretch of an axis of the torus, as one or two of the sheet; returns how many. */
@@ -74,7 +75,9 @@ static int stretches(int from, int length, int all, int out[2][2])
     return out[1][1] > 0 ? 2 : 1;
 }
 
-void sheet_area_mark(struct paper_sheet *p, int x, int y, int width, int height)
+/* Adds fibers of the torus. */
+static void add_around(struct paper_sheet *p, struct sheet_areas *all, int x, int y, int width,
+                       int height)
 {
     int columns[2][2], rows[2][2];
     if (width < 1 || height < 1)
@@ -83,8 +86,17 @@ void sheet_area_mark(struct paper_sheet *p, int x, int y, int width, int height)
               down = stretches(y, height, p->page.grid.height, rows);
     for (int i = 0; i < down; i++)
         for (int j = 0; j < across; j++)
-            add(&p->changed,
-                (struct paper_area){columns[j][0], rows[i][0], columns[j][1], rows[i][1]});
+            add(all, (struct paper_area){columns[j][0], rows[i][0], columns[j][1], rows[i][1]});
+}
+
+void sheet_area_mark(struct paper_sheet *p, int x, int y, int width, int height)
+{
+    add_around(p, &p->changed, x, y, width, height);
+}
+
+void sheet_area_touch(struct paper_sheet *p, int x, int y, int width, int height)
+{
+    add_around(p, &p->unkept, x, y, width, height);
 }
 
 /* Cuts from..from + length - 1 to 0..all - 1. */
@@ -99,7 +111,9 @@ void sheet_area_change(struct paper_sheet *p, int x, int y, int width, int heigh
 {
     clip(&x, &width, p->page.grid.width);
     clip(&y, &height, p->page.grid.height);
-    if (width > 0 && height > 0)
-        sheet_area_mark(p, x - SHEET_LOOK_REACH, y - SHEET_LOOK_REACH,
-                        width + 2 * SHEET_LOOK_REACH, height + 2 * SHEET_LOOK_REACH);
+    if (width < 1 || height < 1)
+        return;
+    sheet_area_touch(p, x, y, width, height);
+    sheet_area_mark(p, x - SHEET_LOOK_REACH, y - SHEET_LOOK_REACH, width + 2 * SHEET_LOOK_REACH,
+                    height + 2 * SHEET_LOOK_REACH);
 }

@@ -393,6 +393,8 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
         struct box changed;
         part_changed(b->parts[i], &changed);
         sheet_area_mark(p, changed.x, changed.y, changed.width, changed.height);
+        const struct box *box = &b->parts[i]->box;
+        sheet_area_touch(p, box->x, box->y, box->width, box->height);
     }
     if (confined) {
         b->ahead = true;

@@ -374,12 +374,17 @@ void sheet_change_place(struct paper_sheet *p, const struct paper_place *place)
         sheet_change(p);
 }
 
-void sheet_change_all(struct paper_sheet *p)
+void sheet_parts_forget(struct paper_sheet *p)
 {
-    sheet_area_mark_all(p);
     if (p->boxes)
         parts_close(p->boxes);
     paper_enter(&p->page);
+}
+
+void sheet_change_all(struct paper_sheet *p)
+{
+    sheet_area_mark_all(p);
+    sheet_parts_forget(p);
 }
 
 double parts_area(const struct sheet_boxes *b)

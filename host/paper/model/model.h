@@ -90,6 +90,7 @@ struct paper_sheet {
     CM_field_id_t t[SHEET_TEMPORARIES];
     CM_field_id_t term[SHEET_TERMS]; /* struct sheet_terms; 0 between steps */
     struct sheet_areas changed;      /* since they were asked for (areas.c) */
+    struct sheet_areas unkept;       /* touched since the planes were copied (areas.c) */
     uint16_t *covers;                /* ground.c; NULL: not made */
     double covers_light;             /* by which they were */
     struct sheet_boxes *boxes;       /* model/boxes.c; NULL: there was none */
@@ -147,6 +148,9 @@ void sheet_change(struct paper_sheet *p);
 void sheet_change_area(struct paper_sheet *p, int x, int y, int width, int height);
 void sheet_change_place(struct paper_sheet *p, const struct paper_place *place);
 void sheet_change_all(struct paper_sheet *p);
+/* What was computed in boxes is dropped, for who writes all that it changed. paper_enter(), and
+ * more. */
+void sheet_parts_forget(struct paper_sheet *p);
 void sheet_boxes_init(struct paper_sheet *p);
 void sheet_boxes_destroy(struct paper_sheet *p);
 /* Boxes whose steps are used up are looked at, when all that was asked for is computed: so the
@@ -200,6 +204,13 @@ enum paper_status sheet_total(struct paper_sheet *p, int substance, double *tota
 enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *words);
 /* Between paper_enter() and paper_leave(). */
 void sheet_plane_write(struct paper_sheet *p, int number, const void *words);
+/* The same of fibers of the sheet. Shape of words: the area's. */
+enum paper_status sheet_plane_part_fetch(struct paper_sheet *p, int number,
+                                         const struct paper_area *area, void *words);
+void sheet_plane_part_write(struct paper_sheet *p, int number, const struct paper_area *area,
+                            const void *words);
+/* Whether something follows from the plane that sheet_planes_written() makes. */
+bool sheet_plane_is_followed(const struct paper_sheet *p, int number);
 /* Whether the words are what that plane of a sheet can hold. Errors: BAD_FILE. */
 enum paper_status sheet_plane_check(const struct paper_sheet *p, int number, const void *words);
 /* After all have been written: what follows from them. */
@@ -365,6 +376,9 @@ enum paper_status sheet_brush_total(struct paper_sheet *p, int number, int subst
 void sheet_area_change(struct paper_sheet *p, int x, int y, int width, int height);
 /* The picture has changed there; the sheet is taken for a torus. */
 void sheet_area_mark(struct paper_sheet *p, int x, int y, int width, int height);
+/* What planes hold may have changed there, seen or not; the sheet is taken for a torus. */
+void sheet_area_touch(struct paper_sheet *p, int x, int y, int width, int height);
+/* Both, everywhere. */
 void sheet_area_mark_all(struct paper_sheet *p);
 
 /* ---- a stroke that grows (growing.c) ---- */

@@ -159,6 +159,49 @@ void sheet_plane_write(struct paper_sheet *p, int number, const void *words)
         kit_grid_f_write(&p->page.grid, field, words);
 }
 
+/* Fibers of the sheet, which lie in rows of their own. */
+static struct kit_block block_of(const struct paper_area *a)
+{
+    return (struct kit_block){a->x, a->y, a->width, a->height, 0, 0, a->width, a->height};
+}
+
+enum paper_status sheet_plane_part_fetch(struct paper_sheet *p, int number,
+                                         const struct paper_area *area, void *words)
+{
+    bool whole;
+    const CM_field_id_t field = plane_field(p, number, &whole);
+    const struct kit_block block = block_of(area);
+    sheet_look(p);
+    CM_set_context();
+    kit_grid_block_read(&block, words, field, whole ? SHEET_DRIED_BITS : 0);
+    return paper_leave(&p->page);
+}
+
+void sheet_plane_part_write(struct paper_sheet *p, int number, const struct paper_area *area,
+                            const void *words)
+{
+    bool whole;
+    const CM_field_id_t field = plane_field(p, number, &whole);
+    const struct kit_block block = block_of(area);
+    CM_set_context();
+    kit_grid_block_write(&block, field, whole ? SHEET_DRIED_BITS : 0, words);
+}
+
+bool sheet_plane_is_followed(const struct paper_sheet *p, int number)
+{
+    static const size_t members[] = {
+        offsetof(struct paper_sheet, height),  offsetof(struct paper_sheet, page.absorbency),
+        offsetof(struct paper_sheet, resist),  offsetof(struct paper_sheet, sizing),
+        offsetof(struct paper_sheet, current), offsetof(struct paper_sheet, thickness)};
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    struct place places[PAPER_PLANES_MAX];
+    planes_make(&p->config, planes, places);
+    bool is = false;
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++)
+        is |= places[number].member == members[i];
+    return is;
+}
+
 void sheet_planes_written(struct paper_sheet *p)
 {
     CM_set_context();
