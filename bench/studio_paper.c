@@ -104,6 +104,8 @@ struct hand {
     double fibers_per_s;
     double *took_ms; /* of each piece with its picture */
     int pieces;
+    double *ends_ms; /* of each end of a stroke, with the dip for the next and their picture */
+    int ends;
 };
 
 /* What has changed, as the studio's thread looks; how many pixels that are. */
@@ -138,7 +140,7 @@ static bool dipped(struct paper_sheet *sheet)
     return said(paper_sheet_dip(sheet, &dip));
 }
 
-/* The reports of 1/60 s: back and forth over what is wet. */
+/* The reports of 1/60 s: back and forth over what is wet, a little lower after each turn. */
 static void reports_make(const struct hand *h, int stroke, int piece,
                          struct paper_stroke_sample samples[REPORTS])
 {
@@ -152,14 +154,14 @@ static void reports_make(const struct hand *h, int stroke, int piece,
         samples[i] =
             (struct paper_stroke_sample){.time_s = t,
                                          .x = from + (turns % 2 ? across - along : along),
-                                         .y = from + (stroke * 37 + turns * 3) % (wet - 40),
+                                         .y = from + stroke * 37 % (wet - 40) / 2 + turns * 3,
                                          .pressure = 0.6};
     }
 }
 
 static bool stroke_paint(struct hand *h, int stroke)
 {
-    bool ok = dipped(h->sheet) && said(paper_sheet_stroke_begin(h->sheet, 0, PACE));
+    bool ok = said(paper_sheet_stroke_begin(h->sheet, 0, PACE));
     for (int piece = 0; ok && piece < bench_many(STROKE_PIECES, PIECES_QUICK); piece++) {
         struct paper_stroke_sample samples[REPORTS];
         reports_make(h, stroke, piece, samples);
@@ -167,7 +169,10 @@ static bool stroke_paint(struct hand *h, int stroke)
         ok = said(paper_sheet_stroke_add(h->sheet, samples, REPORTS, NULL)) && look(h);
         h->took_ms[h->pieces++] = 1e3 * (bench_now_s() - began_s);
     }
-    return ok && said(paper_sheet_stroke_end(h->sheet, NULL)) && look(h);
+    const double began_s = bench_now_s();
+    ok = ok && said(paper_sheet_stroke_end(h->sheet, NULL)) && dipped(h->sheet) && look(h);
+    h->ends_ms[h->ends++] = 1e3 * (bench_now_s() - began_s);
+    return ok;
 }
 
 static int ascending(const void *a, const void *b)
@@ -190,6 +195,12 @@ static void pieces_add(struct bench_report *r, struct hand *h)
     for (int i = 0; i < 3; i++)
         bench_report_add(r, rows[i].what, of_case,
                          (struct bench_sample){rows[i].value, rows[i].value}, 1, "ms");
+    snprintf(of_case, sizeof of_case, "%d strokes, %g fibers/s", h->ends, h->fibers_per_s);
+    bench_report_add(r, "a stroke's end", of_case, bench_sample_of(h->ends_ms, h->ends), 1,
+                     "ms");
+    bench_report_add(r, "a stroke's end, longest", of_case,
+                     (struct bench_sample){h->ends_ms[h->ends - 1], h->ends_ms[h->ends - 1]}, 1,
+                     "ms");
 }
 
 /* So many strokes; the first ones are not counted. */
@@ -201,7 +212,7 @@ static bool strokes_measure(struct bench_report *r, struct hand *h, double fiber
     h->fibers_per_s = fibers_per_s;
     for (int i = -warm; ok && i < strokes; i++) {
         if (i <= 0)
-            h->pieces = 0;
+            h->pieces = h->ends = 0;
         ok = stroke_paint(h, i + warm);
     }
     if (ok)
@@ -215,7 +226,7 @@ static bool undo_measure(struct bench_report *r, struct hand *h)
     const int count = bench_many(UNDOS, 1);
     bool ok = true;
     for (int i = 0; ok && i < count; i++) {
-        h->pieces = 0;
+        h->pieces = h->ends = 0;
         ok = stroke_paint(h, i);
         const double began_s = bench_now_s();
         paper_history_undo(h->sheet, 2); /* with its dip */
@@ -259,14 +270,16 @@ static bool hand_measure(struct bench_report *r)
     brush.width = 24;
     h.rgb = malloc(3 * (size_t)SIDE * SIDE);
     h.took_ms = calloc((size_t)(strokes + warm) * STROKE_PIECES, sizeof *h.took_ms);
-    bool ok = (h.rgb && h.took_ms) || bench_fail("no memory for pictures");
+    h.ends_ms = calloc((size_t)(strokes + warm + UNDOS), sizeof *h.ends_ms);
+    bool ok = (h.rgb && h.took_ms && h.ends_ms) || bench_fail("no memory for pictures");
     ok = ok && sheet_make(bench_many(SIDE, SIDE_QUICK), bench_many(WET, WET_QUICK), &h.sheet) &&
-         said(paper_sheet_brush(h.sheet, &brush)) &&
+         said(paper_sheet_brush(h.sheet, &brush)) && dipped(h.sheet) &&
          strokes_measure(r, &h, 600, strokes, warm) && undo_measure(r, &h) &&
          picture_measure(r, &h) && strokes_measure(r, &h, 3000, bench_many(10, 1), warm);
     paper_sheet_destroy(h.sheet);
     free(h.rgb);
     free(h.took_ms);
+    free(h.ends_ms);
     return ok;
 }
 
