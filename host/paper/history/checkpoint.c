@@ -2,9 +2,9 @@
  *
  * A checkpoint is offered every CHECKPOINT_EVERY steps and operations: of steps that are done
  * in boxes, as many more as take as long, up to CHECKPOINT_SPARED times as many. What has not
- * changed is shared with the checkpoint before (tiles.h). When the budget is full, the checkpoint is dropped whose neighbours are nearest to each other
- * relative to their age. So the recent past is kept in fine steps and the far past in coarse
- * ones.
+ * changed is shared with the checkpoint before (tiles.h). When the budget is full, the
+ * checkpoint is dropped whose neighbours are nearest to each other relative to their age. So
+ * the recent past is kept in fine steps and the far past in coarse ones.
  */
 #include "history/history_internal.h"
 #include "model/model.h"
