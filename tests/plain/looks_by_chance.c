@@ -192,8 +192,8 @@ static void something_do(int pigments)
     static uint8_t gray[SCREEN * SCREEN];
     double amount[1 + CHANCE_PIGMENTS];
     struct paper_screen screen = screen_by_chance(gray, SCREEN);
-    const int x = below(width) - SCREEN / 2, y = below(height) - SCREEN / 2,
-              drawn = below(20), what = often_undone && below(2) ? 6 : drawn;
+    const int x = below(width) - SCREEN / 2, y = below(height) - SCREEN / 2, drawn = below(20),
+              what = often_undone && below(2) ? 6 : drawn;
     const struct paper_screen *through = below(8) ? &screen : NULL;
     const double part = within(0, 1);
     for (int i = 0; i <= pigments; i++)
