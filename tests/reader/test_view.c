@@ -383,6 +383,38 @@ static void hard_documents(void **state)
     }
 }
 
+/* What ink hangs on: the word under a point, also in headings, cells, code and captions. */
+static void words_of_all_kinds_are_hit(void **state)
+{
+    (void)state;
+    static const char *const words[] = {"heading", "second",   "Some",    "fifth",  "return",
+                                        "quoted",  "bulleted", "caption", "centred"};
+    struct reader_document *d = read_text(
+        "# A heading of the first level\n\n## One of the second\n\nSome words.\n\n"
+        "| one | two |\n|---|---|\n| four | fifth cell |\n\n```c\nint a;\n    return "
+        "a;\n```\n\n"
+        "> quoted\n\n- bulleted\n\n![a caption](none.png)\n\n<p align=center>centred</p>\n");
+    struct reader_pages_setup setup = usual_setup();
+    for (int turn = 0; turn < 4; turn++) {
+        setup.width_px = turn % 2 ? 260 : 800;
+        setup.size_px = turn / 2 ? 26 : 13, setup.height_px = 4000;
+        struct reader_view *view = view_of(d, &setup);
+        look(view, &(int){0});
+        for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+            size_t begin, end, byte;
+            bool inside;
+            struct reader_box box;
+            assert_true(reader_document_search(d, words[i], 0, true, &begin, &end) &&
+                        reader_view_boxes(view, begin, begin + 1, &box, 1) >= 1);
+            assert_true(reader_view_hit(view, box.x + box.width / 2, box.y + box.height / 2,
+                                        &byte, &inside));
+            assert_true(inside && byte == begin);
+        }
+        reader_view_destroy(view);
+    }
+    reader_document_destroy(d);
+}
+
 /* Where scripts live there is room for their pictures over their text: as wide as their fences
  * say or as the column is, at every width; without a strip there is none. */
 static void stages_have_room(void **state)
@@ -541,12 +573,19 @@ static void stages_have_controls(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(passages_follow),          cmocka_unit_test(ways_do_not_matter),
-        cmocka_unit_test(begins_anywhere),          cmocka_unit_test(line_stays),
-        cmocka_unit_test(notes_open_in_place),      cmocka_unit_test(notes_open_in_margin),
-        cmocka_unit_test(letters_are_hit),          cmocka_unit_test(search_folds),
-        cmocka_unit_test(hard_documents),           cmocka_unit_test(stages_have_room),
-        cmocka_unit_test(stages_have_controls),     cmocka_unit_test(stages_are_read),
+        cmocka_unit_test(passages_follow),
+        cmocka_unit_test(ways_do_not_matter),
+        cmocka_unit_test(begins_anywhere),
+        cmocka_unit_test(line_stays),
+        cmocka_unit_test(notes_open_in_place),
+        cmocka_unit_test(notes_open_in_margin),
+        cmocka_unit_test(words_of_all_kinds_are_hit),
+        cmocka_unit_test(letters_are_hit),
+        cmocka_unit_test(search_folds),
+        cmocka_unit_test(hard_documents),
+        cmocka_unit_test(stages_have_room),
+        cmocka_unit_test(stages_have_controls),
+        cmocka_unit_test(stages_are_read),
         cmocka_unit_test(lines_of_stages_are_kept),
     };
     if (without_library())
