@@ -2,10 +2,12 @@
 #include "help.h"
 #include "lutetia.h"
 
+#include <machine_ranks.h>
 #include <part_files.h>
 #include <script.h>
 #include <streams.h>
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -127,9 +129,18 @@ static int verb_run_named(int argc, char **argv, const char **name)
     return fail_usage(NULL, "there is no verb '%.60s'; `lutetia --help` lists them", argv[1]);
 }
 
+/* Verbs whose sheets may be in the memory of several processes (docs/blocks.md). The others
+ * make a machine that says why it cannot be, or need none. */
+static bool may_be_ranks(const char *verb)
+{
+    return strcmp(verb, "run") == 0 || strcmp(verb, "paint") == 0;
+}
+
 int main(int argc, char **argv)
 {
     const char *name = NULL;
+    if (argc > 1 && may_be_ranks(argv[1]))
+        machine_ranks_begin();
     streams_fill();
     part_files_catch();
     int status = verb_run_named(argc, argv, &name);

@@ -19,11 +19,12 @@ static enum machine_status refuse(struct machine *m)
     struct ranks_starter starter;
     if (!ranks_wanted(&starter))
         return MACHINE_OK;
-    return machine_fail(m, MACHINE_NO_DEVICE,
-                        "%s is %d, but this program cannot be one of several processes: only "
-                        "programs that are linked with libparis can; with LUTETIA_RANKS=0 each "
-                        "process is a program of its own",
-                        starter.name, starter.count);
+    return machine_fail(
+        m, MACHINE_NO_DEVICE,
+        "%s is %d, but this program cannot be one of several processes: only "
+        "programs that are linked with libparis can, `lutetia run` and `lutetia "
+        "paint`; with LUTETIA_RANKS=0 each process is a program of its own",
+        starter.name, starter.count);
 }
 
 enum machine_status ranks_settings(struct machine *m, const struct machine_config *config)

@@ -3,6 +3,7 @@
 same      the programs (NAME=PATH) print and write what they do in one process, on 2 and 3 ranks, and on 7 of few rows each
 random    PATH, which is test_random, on 3 ranks
 suite     PATH, a test of cmocka, on 2 ranks
+scripts   LUTETIA: a script and its saved state, `paint` and a sweep give the same files on 2 and 3 ranks
 counts    PATH, which is counts: what is done on ranks, and not in one piece
 forks     PATH, which is forks: input, children, other programs, the status
 wrong     each wrong start is a line (NO_MPI PATH LIBPARIS LUTETIA)
@@ -139,14 +140,68 @@ def wrong_starts(no_mpi, life, libparis, lutetia):
         status, out, error = ran([*MPIRUN, "-n", "2", sys.executable, "-c", later], folder)
         if "OMPI_COMM_WORLD_SIZE is 2" not in error or out or not status:
             wrong("a library that is loaded later", out, error)
-        script = os.path.join(folder, "a.lua")
-        with open(script, "w", encoding="utf-8") as file:
-            file.write("sheet = paper{}\n")
-        status, out, error = ran([*MPIRUN, "-n", "2", lutetia, "run", script, "-q"], folder)
+        status, out, error = ran([*MPIRUN, "-n", "2", lutetia, "demo", "-o", folder], folder)
         if "cannot be one of several processes" not in error or not status:
             wrong("lutetia", out, error)
         status, out, error = ran([*MPIRUN, "-n", "2", life, "2", "24", "40"], folder, LUTETIA_RANKS="0")
         says("separate programs", out, "same as a plain loop: yes", 2)
+
+
+# Pictures, a state that another number of ranks goes on from, and the past.
+SCRIPT = """
+local p = paper{width = 90, height = 70, pigments = {"burnt sienna", "yellow ochre"}, undo = 20, seed = 4}
+p:type(param("word", "Ink"), {size = 44, x = 6, y = 52})
+for i = 1, param("steps", 12) do p:step() end
+p:frame("a.png")
+p:undo(3)
+p:frame("b.png")
+"""
+
+
+def scripts(lutetia):
+    lutetia = os.path.abspath(lutetia)
+    with tempfile.TemporaryDirectory() as folder:
+        script = os.path.join(folder, "a.lua")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write(SCRIPT)
+
+        def outcome(name, starter, *command):
+            out = os.path.join(folder, name)
+            os.makedirs(out)
+            status, said, error = ran([*starter, lutetia, *command, "-o", out], folder)
+            if status:
+                wrong(f"{name}: status {status}", said, error)
+            return {name: data for name, data in all_of(out).items() if name.endswith(".png")}
+
+        def compare(what, *pictures):
+            if not pictures[0] or any(picture != pictures[0] for picture in pictures):
+                wrong(f"{what}: {[sorted(picture) for picture in pictures]}")
+
+        def ranks(count):
+            return [*MPIRUN, "-n", str(count)]
+
+        compare("a script", *(outcome(f"run-{n}", ranks(n) if n > 1 else [], "run", script, "-q") for n in (1, 2, 3)))
+        compare("a sweep", *(outcome(f"sweep-{n}", ranks(n) if n > 1 else [], "run", script, "-q", "--sweep", "word=Wet,Dry") for n in (1, 2)))
+        state = os.path.join(folder, "state.h5")
+        outcome("saved", ranks(3), "run", script, "-q", "--save", state, "steps=8")
+        compare("a state", *(outcome(f"resumed-{n}", ranks(n) if n > 1 else [], "run", script, "-q", "--resume", state) for n in (1, 2)),
+                outcome("at-once", [], "run", script, "-q"))
+        for n in (1, 3):
+            status, _, error = ran([*(ranks(n) if n > 1 else []), lutetia, "paint", "Bon", "--paper", "80x60", "-o", f"paint-{n}.png"], folder)
+            if status:
+                wrong("paint", error)
+        if file_of(folder, "paint-1.png") != file_of(folder, "paint-3.png"):
+            wrong("paint: other bits")
+
+
+def file_of(folder, name):
+    with open(os.path.join(folder, name), "rb") as file:
+        return file.read()
+
+
+def all_of(folder):
+    return {os.path.relpath(os.path.join(place, name), folder): file_of(place, name)
+            for place, _, names in os.walk(folder) for name in names}
 
 
 def rank_of(process):
@@ -205,7 +260,7 @@ def main():
     if not shutil.which("mpirun"):
         print("skipped: mpirun is not installed (Debian: openmpi-bin)")
         sys.exit(77)
-    what = {"same": lambda *programs: same(programs), "random": random, "suite": suite, "forks": forks, "counts": counts, "wrong": wrong_starts,
+    what = {"same": lambda *programs: same(programs), "random": random, "suite": suite, "forks": forks, "scripts": scripts, "counts": counts, "wrong": wrong_starts,
             "killed": killed}
     what[sys.argv[1]](*sys.argv[2:])
     sys.exit(1 if failed else 0)
