@@ -129,14 +129,7 @@ static bool exchange_begin(struct machine *m, struct exchange *e, const struct m
 /* The result, unless something went wrong. */
 static struct device_buffer *exchange_end(struct machine *m, struct exchange *e, bool good)
 {
-    for (int i = 0; e->mail && i < e->senders_count * e->takers_count; i++) {
-        free(e->mail[i].index);
-        free(e->mail[i].place);
-        free(e->mail[i].elements);
-    }
-    free(e->mail);
-    free(e->takers);
-    free(e->senders);
+    exchange_free(e);
     if (e->failed)
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for messages");
     if (good && !e->failed) {

@@ -257,18 +257,6 @@ static void sender_set(struct machine *m, struct there *t, int mine)
     s->route.beyond = t->told.looks_beyond ? &e->beyond : NULL;
 }
 
-static void there_end(struct exchange *e)
-{
-    for (int i = 0; i < e->senders_count * e->takers_count; i++) {
-        free(e->mail[i].index);
-        free(e->mail[i].place);
-        free(e->mail[i].elements);
-    }
-    free(e->mail);
-    free(e->takers);
-    free(e->senders);
-}
-
 bool all_to_all_told(struct machine *m, const struct far_table *arrays, const void *told,
                      size_t bytes)
 {
@@ -297,6 +285,6 @@ bool all_to_all_told(struct machine *m, const struct far_table *arrays, const vo
         sender_set(m, &t, mine);
         part_do(e, mine);
     }
-    there_end(e);
+    exchange_free(e);
     return good;
 }

@@ -12,6 +12,18 @@ char *exchange_host(const struct device_buffer *b, const struct share *s, int i,
     return host ? host + s->skip * element : NULL;
 }
 
+void exchange_free(struct exchange *e)
+{
+    for (int i = 0; e->mail && i < e->senders_count * e->takers_count; i++) {
+        free(e->mail[i].index);
+        free(e->mail[i].place);
+        free(e->mail[i].elements);
+    }
+    free(e->mail);
+    free(e->takers);
+    free(e->senders);
+}
+
 /* ---- elements ---- */
 
 #define BY_BYTES(bytes, LOOP)                                                                  \

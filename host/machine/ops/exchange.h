@@ -54,5 +54,7 @@ void exchange_sort(void *of, int part, int worker);
 void exchange_deliver(void *of, int part, int worker);
 void exchange_answer(void *of, int part, int worker);
 void exchange_take(void *of, int part, int worker);
+/* Its mail, senders and takers. */
+void exchange_free(struct exchange *e);
 
 #endif
