@@ -113,7 +113,7 @@ static void letters_that_no_font_has_are_told(void **state)
 {
     (void)state;
     static const char *const made[] = {"text('Bon\\u{F0000}', {size = 20})",
-                                       "page('Bon\\u{F0000}', {width = 90, height = 90})",
+                                       "page('Bon\\u{F0000}', {width = 200, height = 200})",
                                        "spring.word{text = 'Bon\\u{F0000}'}",
                                        "paper{width = 90, height = 40}:type('Bon\\u{F0000}')"};
     for (int i = 0; i < 4; i++) {
